@@ -10,20 +10,20 @@
 
 namespace rsphere {
 
-// The even directions that every strategy starts from.
+// Evenly spread directions, the same at all points. Every strategy (-Sw) uses them.
 struct BaseSet {
-  std::vector<V3d> directions;                // unit, world
-  std::vector<double> solidAngles;            // solid angles that the directions represent, sr
-  std::optional<Neighbours> neighbours;       // if standard errors are wanted
-  const SpectralSampling* sampling;           // RayOptions::sampling
-  std::shared_ptr<const DirectionBins> zones{};  // zones by which light is divided; null: none
+  std::vector<V3d> directions;                   // unit, world
+  std::vector<double> solidAngles;               // solid angles that the directions represent, sr
+  std::optional<Neighbours> neighbours;          // empty unless standard errors are requested
+  const SpectralSampling* sampling;              // the run's: RayOptions::sampling
+  std::shared_ptr<const DirectionBins> zones{};  // zones of -Sz or bins; null: not requested
 };
 
-// -Sn directions, rotated as -Sr says. Their solid angles are all the same with -Sw h, otherwise those of
-// their Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
+// Makes -Sn directions, rotated by -Sr. With -Sw h all have the same solid angle, otherwise that of their
+// Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 
-// Which directions share a side of their Voronoi cells in the workspace's last query.
+// The pairs of directions whose Voronoi cells share a side, in the last query of the workspace.
 Neighbours neighboursOf(const VoronoiWorkspace& workspace);
 
 // Throws rad::Error if the cells of the workspace's last query are wrong (voronoiFault).

@@ -7,16 +7,16 @@
 
 namespace rsphere {
 
-// Limits the brightness that each sample contributes beyond its guess. The limit is `share` times an integral
-// over all directions that is itself clamped, by a limit of `share` times the whole integral: otherwise one
-// very bright direction would raise its own limit. The color of the remainder does not change. Contributions
-// below the guess are not changed. Returns what the integral lost, which is a bias (W/m2).
+// Clamps the brightness that each sample adds to its guess (the control variate) to `share` times an integral
+// over all directions. That integral is itself clamped, by `share` times the whole integral: otherwise one
+// very bright direction would raise its own limit. Colors stay the same, and so do contributions below the
+// guess. Returns the loss of the integral, which is a bias (W/m2).
 //
 // total: the whole integral, including light that is not among the samples (W/m2).
 //
-// Rejected alternatives: a limit of radiance, which is different in each scene; and a share of the integral
-// after clamping with that same limit, which removes everything where many directions contribute more than
-// their share.
+// Rejected alternatives: a limit of radiance, because it would depend on the scene; and a share of the
+// integral after clamping with that same limit, because it removes everything where many directions
+// contribute more than their share.
 Irradiance clampContributions(std::span<DirectionSample> samples, const Irradiance& total, double share,
                               const SpectralSampling* sampling);
 

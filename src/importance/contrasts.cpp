@@ -31,7 +31,7 @@ class Values {
   int count_ = 0;
 };
 
-// What random points of the scene's surfaces see; every surface is equally probable.
+// The radiance seen from random points on the scene's surfaces; every surface is equally probable.
 struct TypicalView {
   double mean = 0;       // of the photopic radiance, W/sr/m2
   double baseError = 1;  // Contrasts::baseError

@@ -31,8 +31,8 @@ size_t poolsFor(const SphereOptions& options) {
   return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
 }
 
-// The error due to light vertices is estimated from the differences between batches. Each batch therefore has
-// enough paths that its mean is known within 3% if the standard deviation of paths equals their mean.
+// The error due to light vertices is estimated from the differences between batches of light paths. Each
+// batch has enough paths to know its mean within 3% if the standard deviation of a path equals the mean.
 size_t pathsFor(const SphereOptions& options) {
   const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
@@ -43,9 +43,9 @@ size_t pathsFor(const SphereOptions& options) {
 
 }  // namespace
 
-// Chooses the light vertices that are joined to a point. The probability, at most 1, is in proportion to an
-// estimate of the vertex's unoccluded contribution. It is a function of the place, so that glances can
-// compute it for multiple importance sampling.
+// Chooses the light vertices that are joined to a point. The probability of a vertex is proportional to an
+// estimate of its unoccluded contribution, and at most 1. It is a function of position alone, so that
+// multiple importance sampling can evaluate it where a glance hits.
 class DiffuseGlances::Joins {
  public:
   Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
@@ -65,7 +65,7 @@ class DiffuseGlances::Joins {
   }
 
   double shareOf(double shown) const { return std::min(1., factor_ * shown); }
-  // A place that a glance sees, with the densities of glances and joins there.
+  // A surface point that a glance hits, with the densities of glances and joins there.
   VertexLight::Seen seen(const PlainPlace& at, const V3d& direction, double distance) const {
     const double cosine = -at.normal.dot(direction), square = distance * distance;
     return {direction, density_ * cosine / square, factor_ * cosine / (square + radius2_)};
@@ -87,7 +87,7 @@ class DiffuseGlances::Joins {
     }
   }
 
-  // The contribution of a vertex that is joined, if it is in view.
+  // The contribution of a joined vertex, or 0 if it faces away from the point or is hidden.
   Irradiance partOf(const VisibleVertex& v, double share, const V3d& direction, double distance) const {
     const double cosine = -direction.dot(v.vertex.normal()), square = distance * distance;
     if (!(cosine > 0)) return {};
@@ -193,8 +193,8 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
     found.moments.add(direction, part, sampling);
     if (!neighbours_) return;
     recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
-    // Successive vertices are neighbours, so that their differences show the variance due to the
-    // choice.
+    // Successive vertices are close together, so the difference of their contributions estimates the variance
+    // due to choosing vertices at random.
     if (last) {
       const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
       found.variance += variance;

@@ -1,10 +1,9 @@
 #pragma once
-// The light that a point receives from the plain surfaces in its view, by paths from both ends
+// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling
 // (transport/vertex_light.h):
-// - glances: evenly spread directions for which only the nearest surface is found, many for each traced
-//   direction,
-// - joins: shadow rays from the point to light vertices, more often to those that would contribute more.
-// Traced directions find the rest: the light of sources in view, of sharp reflections and of samples of rough
+// - glances: evenly spread directions of which only the nearest hit is found, many for each traced direction,
+// - joins: shadow rays from the point to light vertices, sent more often to those that would contribute more.
+// Traced directions find the remaining light: of sources in view, sharp reflections, and sampled rough
 // highlights.
 #include <memory>
 #include <optional>
@@ -20,37 +19,38 @@ namespace rsphere {
 // Shared by all threads.
 class DiffuseGlances {
  public:
-  // With -Sa and -Su, sets of directions use this number of pools of light vertices in turn, so that the
-  // error of the vertices is averaged too.
+  // Number of pools of light vertices with -Sa and -Su. The sets of directions use them in turn, so that
+  // averaging sets also averages the error due to the vertices.
   static constexpr size_t kPools = 8;
 
-  // Null if paths from both ends miss some of the light (PlainSurfaces::obstacle()). Keeps references.
+  // Null if bidirectional sampling would miss some of the light (PlainSurfaces::obstacle()). Keeps
+  // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
   // REQUIRES that make() would not return null.
   DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
                  const BaseSet& base);
 
-  // The result of one set of glances and joins at its point.
+  // The light found by the glances and joins of one set at its point.
   struct Found {
     // gaze: Moments::gaze.
     explicit Found(const DirectionBins* zones = nullptr, const std::optional<V3d>& gaze = {})
         : moments(zones, gaze), ofZones(zones) {}
     Moments moments;     // of the light
-    Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are wanted
-    SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are wanted
+    Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are requested
+    SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are requested
     size_t lit = 0;      // glances that found light
-    // The variance and the shared error by zone (-Sz); empty without zones, or if errors are not wanted.
+    // By zone (-Sz): variance and shared error; empty without zones, or if errors are not requested.
     ZoneVariances ofZones;
     std::vector<SharedError> sharedByZone;
   };
   Found at(const SetAtPoint& set) const;
 
-  // The same light from one direction (W/sr/m2), estimated by one glance. number: of the direction.
+  // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number) const;
 
-  // The light vertices for a set, to be used at surfaces that its directions see in reflections or through
-  // other surfaces.
+  // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
+  // and other transmitting surfaces.
   std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
     return lights_.at(set.point(), set.number());
   }
@@ -58,16 +58,16 @@ class DiffuseGlances {
 
  private:
   class Joins;
-  // What the glances at one point share.
+  // State shared by the glances at one point.
   struct Glancing {
     const VertexLight& both;
     Random random;
-    const Joins* joins = nullptr;           // null: no vertices are joined to the point
-    VertexLight::Record* record = nullptr;  // null: errors are not wanted
+    const Joins* joins = nullptr;           // null: no joins
+    VertexLight::Record* record = nullptr;  // null: errors are not requested
     double cell = 0;                        // solid angle of a glance, sr
     VertexLight::Scratch scratch{};
   };
-  // One for each zone and one for what lies in none, or a single one without zones.
+  // One record for each zone and one for directions in no zone; a single one without zones.
   using Records = std::vector<VertexLight::Record>;
   VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
   void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
@@ -78,8 +78,8 @@ class DiffuseGlances {
   LightPools lights_;
   std::vector<V3d> glances_;
   std::shared_ptr<const DirectionBins> zones_;  // null: light is not divided
-  std::optional<Neighbours> neighbours_;     // if standard errors are wanted
-  double joins_;                             // expected number of joins at a point
+  std::optional<Neighbours> neighbours_;        // empty unless standard errors are requested
+  double joins_;                                // expected number of joins at a point
 };
 
 }  // namespace rsphere

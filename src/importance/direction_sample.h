@@ -5,9 +5,9 @@
 
 namespace rsphere {
 
-// Identifies a part of the sphere: directions that lie in the same targets (targets.h) have the same number,
-// and cells do not extend from one part into another. kNoRegion: the direction does not enter the mean,
-// because others represent its solid angle.
+// Identifies a part of the sphere. Directions that lie in the same targets (targets.h) have the same number,
+// and a cell never extends from one part into another. kNoRegion: the direction is left out of the mean,
+// because other directions represent its solid angle.
 using RegionId = uint64_t;
 inline constexpr RegionId kNoRegion = UINT64_MAX;
 
@@ -17,7 +17,7 @@ struct DirectionSample {
   double solidAngle = 0;   // solid angle that it represents, sr
   Radiance value{};        // radiance from the direction, W/sr/m2
   bool toSource = false;   // whether it was sent to a light source that is integrated separately
-  Radiance guess{};        // the part of the value that many glances estimate better; 0: none
+  Radiance guess{};        // the part of the value that glances integrate (control variate); 0: none
   RegionId region = 0;
 };
 

@@ -18,21 +18,21 @@ namespace {
 
 using Tuning = tuning::Pictures;
 
-// On a ball, points whose height over each other's planes is the largest that tuning::Pictures::kNear allows
-// have normals with this cosine. It excludes surfaces that meet in an edge.
+// Two points on a ball may share light if each is near the plane of the other, within
+// tuning::Pictures::kNear. Their normals then differ by at most this cosine. Surfaces that meet in an edge
+// differ more.
 const float kSameNormal = 1 - 2 * Tuning::kNear * Tuning::kNear;
 
 const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal,
                             Tuning::kNear};
 const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear};
-// The first pass blurs edges of sharp shadows by a pixel. Pixels at such edges differ visibly from their
-// neighbors, so that they are traced again (refine()).
+// The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
+// they differ visibly from their neighbors.
 const Smoothing kOfDirect{1, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal, Tuning::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
-// Whether shadow rays find all light: there is neither daylight nor a glowing surface, which indirect rays
-// must meet.
+// Whether shadow rays find all light. Daylight and glowing surfaces are found by indirect rays only.
 bool lampsAlone(const PreparedScene& prepared) {
   for (const LightSource& light : prepared.lights().all())
     if (light.isDistant()) return false;
@@ -43,7 +43,7 @@ bool lampsAlone(const PreparedScene& prepared) {
   });
 }
 
-// The seeds of a picture, each named after its use.
+// The seeds of a picture's random numbers, each named after its use.
 class PictureStreams {
  public:
   explicit PictureStreams(uint64_t seed) : seed_(seed) {}
@@ -68,7 +68,7 @@ struct Spot {
   Irradiance light;
 };
 
-// The sources that pixels may miss: their images, and their light in each pixel.
+// The sources that pixels may miss: their images, and the light that they add to each pixel.
 struct SmallSources {
   std::vector<SeenSources::Image> images;
   std::map<size_t, Spot> spots;  // by pixel
@@ -99,7 +99,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
 struct Pixels {
   SeenSurfaces seen;
   PixelLight indirect, gloss, direct;
-  std::vector<Imath::V3f> ownDirect;  // before it is shared
+  std::vector<Imath::V3f> ownDirect;  // direct light before smoothing
   std::vector<V3d> rest, pattern;
   std::vector<bool> sharesGloss, sharesDirect, isTraced;
 
@@ -131,7 +131,7 @@ struct Pixels {
     sharesDirect[pixel] = sample.sharesDirect;
     isTraced[pixel] = true;
   }
-  // The whole light of a sample. Components that it lacks are taken from the given pixel.
+  // The light of a sample with all components. Those that the sample lacks come from the given pixel.
   V3d complete(const PixelSample& sample, size_t pixel) const {
     V3d value = sample.rest + sample.direct;
     if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
@@ -155,7 +155,7 @@ struct Pixels {
   }
 };
 
-// The mean of what the rays of a pixel see, and whether they differ visibly.
+// Averages the rays of a pixel, and decides whether they differ visibly.
 class RaysOfPixel {
  public:
   // most: the largest value of a color that the picture can show.
@@ -184,8 +184,7 @@ class RaysOfPixel {
 };
 
 // Removes the noise of soft shadows. Differences are judged relative to all diffuse light, as the eye
-// perceives them. Where little of that is direct, the noise of direct light is large only relative to the
-// direct light itself.
+// perceives them. In indirectly lit places, the noise of direct light is therefore not visible.
 void smoothDirect(Pixels& pixels) {
   std::vector<Imath::V3f>& light = pixels.direct.light;
   const std::vector<Imath::V3f>& indirect = pixels.indirect.light;
@@ -239,8 +238,8 @@ class Painter {
   const int sharing_;  // one pixel in a square of this side gathers
 };
 
-// What is seen at a place of the picture. Empty beyond the rim, and where a small source is seen, because the
-// light of small sources is added later.
+// Traces the ray through a position in the picture. Empty outside the rim of a fisheye, and where the ray
+// hits a small source, because the light of small sources is added later.
 std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, PixelParts parts) {
   const auto direction = map_.direction(x, y);
   if (!direction) return std::nullopt;
@@ -249,8 +248,7 @@ std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, Pixe
   return sample;
 }
 
-// The same at the middle of a pixel. Where a small source is seen there, places beside the middle are tried
-// instead.
+// The same for the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
 std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;
@@ -261,7 +259,7 @@ std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts
   return sample;
 }
 
-// One pixel of each block gathers, a different one from block to block, so that the blocks are not visible.
+// In each block one pixel gathers. Its position is random, so that no grid is visible.
 bool Painter::gathers(int column, int row) const {
   const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
                                        static_cast<uint64_t>(sharing_ * sharing_));
@@ -283,7 +281,8 @@ Pixels Painter::tracePixels() {
   return pixels;
 }
 
-// Small surfaces may have no pixel that gathers.
+// Gathers at pixels that smoothing left without indirect light: a small surface may have no pixel that
+// gathers.
 void Painter::gatherWhereUnknown(Pixels& pixels) {
   for (int row = 0; row < map_.height(); ++row)
     for (int column = 0; column < map_.width(); ++column) {
@@ -294,8 +293,8 @@ void Painter::gatherWhereUnknown(Pixels& pixels) {
     }
 }
 
-// The pixels of soft shadows whose direct light differs from that of pixels nearby by more than smoothing may
-// even out.
+// Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
+// smoothing may remove.
 std::vector<bool> noisyShadows(const Pixels& pixels) {
   const int width = pixels.seen.width, height = pixels.seen.height;
   std::vector<bool> marked(pixels.sharesDirect.size(), false);
@@ -322,8 +321,8 @@ std::vector<bool> noisyShadows(const Pixels& pixels) {
   return marked;
 }
 
-// Traces the direct light of soft shadows several times. Its noise would be too large for smoothLight() to
-// tell it from the edge of a shadow, which would become ragged.
+// Traces the direct light of noisy soft shadows several times. smoothLight() could not distinguish such
+// strong noise from the edge of a shadow, and the edge would become ragged.
 void Painter::repeatDirect(Pixels& pixels) {
   const std::vector<bool> marked = noisyShadows(pixels);
   for (int row = 0; row < map_.height(); ++row)
@@ -343,7 +342,7 @@ void Painter::repeatDirect(Pixels& pixels) {
     }
 }
 
-// The pixels that differ visibly from a neighbor.
+// Marks the pixels that differ visibly from a neighbor.
 std::vector<bool> Painter::uneven(const Raster& raster, double exposure) const {
   std::vector<bool> marked(map_.count(), false);
   const auto differ = [&](size_t a, size_t b) {
@@ -367,7 +366,7 @@ std::vector<bool> Painter::uneven(const Raster& raster, double exposure) const {
   return marked;
 }
 
-// The pixel nearest to a place whose surface is that of the sample.
+// The nearest pixel to this column and row, within one pixel, that shows the surface of the sample.
 std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sample, int column,
                                      int row) const {
   constexpr int kOrder[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -384,8 +383,8 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
   return std::nullopt;
 }
 
-// What is seen at one of the places kAround of a pixel, completed with components of pixels around it. Empty
-// beyond the rim, and where a small source is seen.
+// Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels. Empty
+// outside the rim, and where the ray hits a small source.
 std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
   const double x = column + .5 + Tuning::kAround[place][0], y = row + .5 + Tuning::kAround[place][1];
   const uint64_t seed = streams_.around(at(column, row), place);

@@ -9,21 +9,20 @@
 
 namespace rsphere {
 
-// Called before each row with the fraction of the work that is done, 0 to 1; may throw to abandon the
-// picture.
+// Called before each row with the finished fraction of the work, 0 to 1. May throw to abandon the picture.
 using DrawingProgress = std::function<void(double done)>;
 
 // Draws the radiance (W/sr/m2) that arrives at a point (world), in red, green and blue.
-// - A ray is traced through the middle of each pixel. Where the picture has edges or is noisy, four more are,
-//   and another four where these differ. With forScreen they are averaged as colors that a screen can show,
-//   at the exposure of exposureOf(): windows and luminaires have even edges there, however bright they are.
-// - The indirect light of the surfaces that are seen is gathered at one pixel in four, or in nine without
-//   daylight, from -ad + -as rays. It is averaged over nearby pixels, as are rough reflections and the light
-//   of sources (smooth_light.h).
-// - Sources that are seen directly (SeenSources) and are so small that pixels may miss them are sampled
+// - One ray is traced through the middle of each pixel, four more where the picture has edges or noise, and
+//   another four where these differ. forScreen: the rays of a pixel are averaged as displayed colors, at the
+//   exposure of exposureOf(), so that windows and luminaires have smooth edges however bright they are.
+// - The indirect light of visible surfaces is gathered at one pixel in four, or in nine without daylight,
+//   from -ad + -as rays. Nearby pixels share it, as well as rough reflections and the light of sources
+//   (smooth_light.h).
+// - Directly visible sources (SeenSources) that are so small that pixels may miss them are sampled
 //   separately. Their light is added to the pixels that they cover, so that none is lost and none looks
-//   larger.
-// transport: with the options of pictures (pictureDefaults() in cli/option_table.h). All random numbers
+//   enlarged.
+// transport: with the options for pictures (pictureDefaults() in cli/option_table.h). All random numbers
 // follow from seed.
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
                  const SeenSources& sources, uint64_t seed, bool forScreen,

@@ -4,7 +4,7 @@
 
 namespace rsphere {
 
-// -Sw h: the base directions alone, each with the same solid angle.
+// -Sw h: only the base directions, all with the same solid angle.
 class EqualWeights : public SamplingStrategy {
  public:
   // Keeps references to both.

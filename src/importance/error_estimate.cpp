@@ -11,16 +11,16 @@ namespace {
 
 using Tuning = tuning::ErrorEstimate;
 
-// The part of a direction's radiance that only directions estimate; glances estimate the rest.
+// The part of a direction's radiance that glances do not estimate.
 Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
 
-// Values minus the means of their neighbours.
+// Each value minus the mean of its neighbours' values.
 struct Differences {
   std::vector<Radiance> values;  // 0 where there is no neighbour
-  std::vector<int> neighbours;   // how many there are
+  std::vector<int> neighbours;   // number of neighbours that were used
 };
 
-// values: of the samples. Neighbours in the same region are used; if there are none, all but those in
+// values: of the samples. Only neighbours in the same region are used; if there are none, all except those in
 // kNoRegion.
 Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
                         const Neighbours& n) {
@@ -45,18 +45,17 @@ Differences differences(std::span<const Radiance> values, std::span<const Direct
   return result;
 }
 
-// Ratio of the variance of one value to that of its second difference, for independent values with m
+// Variance of one value divided by the variance of its second difference, for independent values with m
 // neighbours each. The second difference contains the value itself 1 + 1/m times, and each neighbour -2/m +
-// 2/m^2 times, because each neighbour shares two neighbours with the value. Neighbours of neighbours
-// contribute kFarther, computed for m = 6.
+// 2/m^2 times, because each neighbour shares two neighbours with the value. kFarther is the contribution of
+// neighbours of neighbours, computed for m = 6.
 double ownPartOfSecond(double m) {
   constexpr double kFarther = .023;
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-// The effective number of directions that the variance is due to, from the fourth moment of their brightness:
-// n for values that are evenly distributed between two bounds, 1.8 k if k of n directions find something
-// small.
+// The effective number of directions that cause the variance, from the fourth moment of their brightness: n
+// for uniformly distributed values; 1.8 k if only k of n directions hit something small and bright.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
     return photopicOf(irradianceFrom(unguessed(s), s.solidAngle).color, sampling);
@@ -69,12 +68,13 @@ double sharing(std::span<const DirectionSample> samples, const SpectralSampling*
     second += square;
     fourth += square * square;
   }
-  constexpr double kUniform = 1.8;  // the fourth moment of such values over the square of the second
+  constexpr double kUniform = 1.8;  // fourth moment of uniformly distributed values over the square of the
+                                    // second
   return fourth > 0 ? std::min(n, kUniform * second * second / fourth) : n;
 }
 
-// The variance of the sum of all batches, from the differences between them. It contains what the random
-// choice of vertices adds to these differences.
+// The variance of the sum of all batches, estimated from the differences between them. It includes the
+// variance due to the random choice of vertices.
 Variance spreadOf(const SharedError& error, const SpectralSampling* sampling) {
   const auto n = static_cast<double>(error.batches.size());
   if (n < 2) return {};
@@ -103,7 +103,7 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
 Variance varianceWith(const SharedError& error, Variance own, const SpectralSampling* sampling) {
   const Variance spread = spreadOf(error, sampling);
   own += sharedVariance(error, sampling);
-  // The spread of n independent sums is known with a relative standard deviation of (2 / (n - 1))^1/2.
+  // The relative standard deviation of a variance estimated from n independent sums is (2 / (n - 1))^1/2.
   const auto n = static_cast<double>(error.batches.size());
   const double least = n < 2 ? 0 : Tuning::kLeastShared * std::sqrt(2 / (n - 1));
   const auto larger = [&](double all, double part) { return std::max(all, least * part); };
@@ -151,9 +151,9 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     if (to && !samples.empty()) to->add(samples[0].direction, samples[0].solidAngle, squares);
     return squares;
   }
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. An object that
-  // few directions find is smaller than the spacing of directions; within it, directions that are even in the
-  // whole region are independent.
+  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. For an object
+  // smaller than the spacing of directions, which few of them find, even spreading does not reduce the
+  // variance.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
   for (const DirectionSample& s : samples)
     if (to)
@@ -207,8 +207,8 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                        ZoneVariances* to) {
-  // The samples are in the order of the rows of the grid. Pairs are neighbours in a row, and samples in
-  // neighbouring rows, if these are as long as the first one.
+  // The samples are ordered by rows of the grid. A pair is two neighbours in a row, or in adjacent rows if
+  // these are as long as the first row.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {
@@ -220,7 +220,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
-    // The part of a difference that is due to visibility is excluded: shadow rays have measured it.
+    // Differences due to visibility are excluded, because shadow rays have measured them.
     const double clear = static_cast<double>(samples[i].clear * samples[k].clear) /
                          static_cast<double>(samples[i].aimed * samples[k].aimed);
     sum += Variance::of(irradianceFrom(samples[i].direction.value, samples[i].part) -
@@ -243,7 +243,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
 Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to) {
   struct Chosen {
-    Irradiance found;  // light of the image, weighted to represent the images that were not chosen
+    Irradiance found;  // light of the image, weighted to represent images that were not sampled
     double chance;
     V3d direction;  // of one of its samples
   };
@@ -256,7 +256,7 @@ Variance choiceVariance(std::span<const SeenSources::Sample> samples, const Spec
   }
   Variance sum;
   const auto n = static_cast<double>(chosen.size());
-  // An image that is nearly always chosen varies little.
+  // The random choice adds little variance for an image that is nearly always sampled.
   for (size_t i = 1; i < chosen.size(); ++i) {
     const Variance part = Variance::of(chosen[i].found - chosen[i - 1].found, sampling) *
                           ((.5 - .25 * (chosen[i].chance + chosen[i - 1].chance)) * (n / (n - 1)));

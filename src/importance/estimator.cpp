@@ -19,8 +19,8 @@
 namespace rsphere {
 namespace {
 
-// Adds `excess` to the integral over the samples: in proportion to their guesses, or
-// evenly if all guesses are 0.
+// Adds `excess` to the integral over the samples: in proportion to their guesses, or evenly if all guesses
+// are 0.
 void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   Irradiance guessed;
   double solidAngle = 0;
@@ -28,7 +28,7 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
     guessed += irradianceFrom(s.guess, s.solidAngle);
     solidAngle += s.solidAngle;
   }
-  // The factor for one channel or band. all: its sum over the guesses; more: its excess.
+  // The factor for one channel or band. all: integral of the guesses; more: their excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
@@ -40,8 +40,8 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   for (DirectionSample& s : samples) s.value.color += scale * s.guess.color + shift;
 }
 
-// Sets radiances to 0 that guesses have made negative, and reduces the others so that the
-// integral stays the same.
+// Sets radiances to 0 that subtracting guesses has made negative, and reduces the others so that the integral
+// stays the same.
 void keepPositive(std::vector<DirectionSample>& samples) {
   Color sum, positive;
   for (const DirectionSample& s : samples) {
@@ -106,7 +106,7 @@ void append(std::vector<T>& all, std::vector<T>&& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// Joins all sets into one, with the weights that they have in the average of the sets. excess: the average of
+// Merges all sets into one, with their weights in the average of the sets. excess: the average of
 // SampledSet::excess, which is added to the samples if every direction is printed.
 SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irradiance& excess,
                   bool everyDirection) {
@@ -123,7 +123,7 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
   return all;
 }
 
-// The relative error of the coarse solution, which all points of a run share; 0 without one.
+// The relative error of the coarse solution, common to all points of a run; 0 without a coarse solution.
 double coarseError(const SphereTracing& tracing) {
   using Tuning = tuning::ErrorEstimate;
   if (!tracing.caches.coarse) return 0;
@@ -132,7 +132,7 @@ double coarseError(const SphereTracing& tracing) {
   return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
 }
 
-// The variance due to that error.
+// The variance of the total due to the relative error of the coarse solution.
 Variance coarseVariance(const Irradiance& total, const SpectralSampling* sampling, double error) {
   return Variance::of(total, sampling) * (error * error);
 }
@@ -160,7 +160,7 @@ std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const Directi
   return errors;
 }
 
-// Null where light vertices do not bring all of the light, and with weights that leave them out.
+// Null where light vertices miss some of the light, and for strategies that do not use them.
 std::unique_ptr<const DiffuseGlances> glancesFor(const PreparedScene& prepared, const SphereOptions& options,
                                                  const BaseSet& base) {
   if (options.weights != Weights::silhouettes || !(options.densityFactor > 0)) return nullptr;
@@ -168,8 +168,8 @@ std::unique_ptr<const DiffuseGlances> glancesFor(const PreparedScene& prepared, 
 }
 
 // Light vertices replace the caches of interpolated light: they are unbiased, and need less time for the same
-// error (tests/bench/rtrace/runs/2026-11-25-lamps.txt). All is then as with -aa 0, where bright spots are
-// looked for only beyond openings.
+// error (tests/bench/rtrace/runs/2026-11-25-lamps.txt). Without caches (-aa 0), bright spots are found only
+// behind openings.
 const Caches& cachesFor(const Transport& transport, bool haveVertices) {
   static const Caches none;
   return haveVertices ? none : transport.caches();
@@ -221,11 +221,11 @@ std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
     : tracer(estimator.tracing_.tracer()) {}
 
-// lit: number of directions that found light. A small number is a sign of a dark point with -Sw c only, where
-// directions are sent to the sources; with other strategies all directions may miss small sources.
+// lit: number of directions that found light. A small number means a dark point only with -Sw c, which sends
+// directions to the sources; with other strategies all directions may miss small sources.
 bool SphereEstimator::isDark(const PointAnswer& answer, size_t lit) const {
   if (maxChannel(answer.mean.color) == 0) return true;
-  if (sources_.haveSensors()) return false;  // one direction is all that shows a sensor
+  if (sources_.haveSensors()) return false;  // a sensor is found by a single direction
   return options_.weights == Weights::silhouettes &&
          static_cast<double>(lit) < tuning::Dark::kShare * static_cast<double>(answer.directions);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Computes the quantities of sphere mode at a point from traced directions, which -Sw chooses and weights.
+// Computes the quantities of sphere mode at a point from traced directions. -Sw is the strategy that chooses
+// and weights them.
 //
 // Source: Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance Calculation" (base
 // directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:
@@ -29,8 +30,8 @@ namespace rsphere {
 class SphereEstimator {
  public:
   // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
-  // whether PointAnswer's standard errors are wanted; -Sa computes them in any case. Throws rad::Error if the
-  // solid angles of the base directions fail the check of -Sv.
+  // whether PointAnswer should contain standard errors; -Sa computes them in any case. Throws rad::Error if
+  // the solid angles of the base directions fail the check of -Sv.
   SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
   SphereEstimator(const SphereEstimator&) = delete;
   SphereEstimator& operator=(const SphereEstimator&) = delete;
@@ -41,34 +42,36 @@ class SphereEstimator {
     PathTracer tracer;
     // Called before each set of directions; may throw to abandon the point.
     std::function<void()> checkStop;
-    // The directions of the last point; with -Sa only if every direction is wanted (-Sd), because there may
-    // be a million. With -Sd, their radiances times solid angles sum to the integral of the answer: the
-    // difference between the integrals of the guess by glances and by directions is distributed among the
-    // radiances in proportion to their guesses. No radiance is negative unless the answer is.
+    // The directions of the last point. With -Sa they are kept only if every direction is requested (-Sd),
+    // because there may be a million. With -Sd, their radiances times solid angles sum to the integral of the
+    // answer: the correction of the control variate (the integral of guesses by glances, minus that by
+    // directions) is distributed among the radiances in proportion to their guesses. No radiance is negative
+    // unless the answer is.
     std::vector<DirectionSample> samples;
     std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
 
    private:
     friend class SphereEstimator;
-    VoronoiWorkspace voronoi_;  // memory that is kept for speed alone
+    VoronoiWorkspace voronoi_;  // reused memory, without influence on answers
   };
 
-  // The quantities at a point (world); the directions are left in workspace.samples. The answer depends on
-  // the point, the scene and the options alone. With -Sa, sets of directions with different rotations are
-  // averaged until the estimated standard error of the brightness of the mean is below that fraction of it
-  // (two_halves.h), or until the next set might exceed SphereOptions::mostOfAllSets(), or at a dark point
-  // after tuning::Dark::kSets sets.
+  // The quantities at a point (world); the directions are left in workspace.samples. The answer depends only
+  // on the point, the scene and the options. With -Sa, sets of directions with different rotations are
+  // averaged until the estimated standard error of the brightness is below that fraction of the mean
+  // (two_halves.h). They end early if the next set might exceed SphereOptions::mostOfAllSets(), and at a dark
+  // point after tuning::Dark::kSets sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // One set of directions, and its integrals. The mean of the integrals over sets is an estimate like that of
-  // estimate(). Sets of different numbers below DiffuseGlances::kPools are independent of each other.
+  // Traces one set of directions. The integrals of one set are an estimate of those at the point, which
+  // estimate() averages over sets. Sets with different numbers below DiffuseGlances::kPools are independent
+  // of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return strategy_->sample(set, workspace.tracer, workspace.voronoi_);
   }
   Moments momentsOf(const SampledSet& sampled, const SetAtPoint& set) const {
     return sampled.moments(base_, set.gaze());
   }
-  // The relative standard error that all sets and points share: that of the coarse solution (-aa above 0).
+  // The relative standard error common to all sets and points: that of the coarse solution (-aa above 0).
   double sharedError() const;
 
   const SeenSources& sources() const { return sources_; }
@@ -81,13 +84,13 @@ class SphereEstimator {
   BaseSet base_;
   SeenSources sources_;
   std::vector<SpecialObject> special_;             // none with -Sw h
-  std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices do not bring all of the light
+  std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices miss some of the light
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
-  double dark_ = 0;  // -Sa: points with a smaller integral of radiance are dark, W/m2
+  double dark_ = 0;  // -Sa: integral of radiance (W/m2) below which a point is dark
 };
 
-// One direction of a point as -Sd prints it.
+// One direction of a point, as -Sd prints it.
 RayAnswer directionAnswer(const Scene& scene, const DirectionSample& sample, const TracedRay& ray);
 
 }  // namespace rsphere

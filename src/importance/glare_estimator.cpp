@@ -14,13 +14,13 @@
 namespace rsphere {
 namespace {
 
-// The defaults of evalglare. Bright pixels within kSameSource of each other become one source; this is half
-// of the opening angle of .2 rad of its option -r. Peaks above kPeak become sources of their own (option -Y).
+// The defaults of evalglare. Bright pixels within kSameSource of each other become one source; .1 rad is half
+// of the opening angle of its option -r. Peaks above kPeak become separate sources (option -Y).
 constexpr double kSameSource = .1;  // rad
 constexpr double kPeak = 50000;     // cd/m2
 
-// With these numbers, rays that are traced a second time, and rays to the task, have other random numbers
-// than rays that are traced first.
+// Offsets of seeds: rays that are traced again, and rays to the task, are independent of rays that are traced
+// first.
 constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
 
 constexpr size_t kTaskRays = 256;
@@ -32,13 +32,13 @@ SphereOptions withDirections(SphereOptions options) {
   return options;
 }
 
-// Cap on the directions of one fit. It grows more slowly than the number of directions, so that both the
-// noise of fits and their bias tend to 0.
+// Cap on the directions in one fit. It grows more slowly than the number of directions, so that both the
+// noise and the bias of fits tend to 0.
 size_t directionsOfFit(size_t directions) {
   return std::max<size_t>(16, static_cast<size_t>(std::sqrt(static_cast<double>(directions))));
 }
 
-// Standard error of an estimate from those that leave out one of n sets each.
+// Standard error by the jackknife: from n estimates, each of which leaves out one set.
 template <class Value>
 double jackknifeError(size_t n, const Value& without) {
   double mean = 0, squares = 0;
@@ -53,10 +53,10 @@ double jackknifeError(size_t n, const Value& without) {
 struct GlareEstimator::Look {
   V3d direction{0, 0, 1};
   double solidAngle = 0;            // sr
-  double direct = 0, indirect = 0;  // luminance, cd/m2: indirect light; all other light
+  double direct = 0, indirect = 0;  // luminance, cd/m2: without indirect light; of indirect light
   double smooth = 0;                // luminance without the noise of indirect light
-  SurfaceId surface = kNone;        // that is seen, perhaps through panes
-  bool toLamp = false;              // whether that is a light source with samples of its own, seen directly
+  SurfaceId surface = kNone;        // the surface seen, perhaps through panes
+  bool toLamp = false;              // whether it is a directly visible light source with separate samples
   size_t set = 0;
 
   double luminance() const { return direct + indirect; }
@@ -66,16 +66,16 @@ struct GlareEstimator::Look {
   }
 };
 
-// Sets of directions of an eye.
+// The sets of directions of an eye.
 struct GlareEstimator::View {
   Gaze gaze;
   std::vector<Look> looks;
   struct Set {
     double illuminance = 0;    // at the eye, lx
-    double taskLuminance = 0;  // 0 if it is not wanted
+    double taskLuminance = 0;  // 0 if no task is given
   };
   std::array<Set, kSets> sets{};
-  size_t leftOut = kSets;  // the set that is left out; kSets: none
+  size_t leftOut = kSets;  // the set that the jackknife leaves out; kSets: none
 
   size_t count() const { return leftOut < kSets ? kSets - 1 : kSets; }
   double mean(double Set::*quantity) const {
@@ -90,7 +90,7 @@ struct GlareEstimator::View {
                          [&](const Look& look) { return look.set != set; });
     return view;
   }
-  // The mean luminance of all that is in front of the eye.
+  // The mean luminance in the hemisphere in front of the eye.
   double luminance() const {
     double light = 0;
     for (const Look& look : looks) light += look.luminance() * look.solidAngle;
@@ -99,12 +99,12 @@ struct GlareEstimator::View {
   void smoothIndirect();
 };
 
-// A glare source in each set.
+// A glare source, with its contribution in each set.
 struct GlareEstimator::Source {
   SurfaceId surface;
   std::array<SeenGlare, kSets> seen{};
 
-  // The mean over all sets but this one; kSets: over all sets.
+  // The mean over all sets except `leftOut`; kSets: over all sets.
   SeenGlare mean(size_t leftOut = kSets) const {
     SeenGlare sum;
     for (size_t k = 0; k < kSets; ++k)
@@ -128,8 +128,8 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   return source;
 }
 
-// Replaces the indirect light of each look, in `smooth`, by a fit to the looks around it that see the same
-// surface.
+// Sets `smooth` of each look, replacing its indirect light by a fit to the surrounding looks that see the
+// same surface.
 void GlareEstimator::View::smoothIndirect() {
   std::map<SurfaceId, std::vector<Look*>> bySurface;
   for (Look& look : looks) {
@@ -194,7 +194,7 @@ GlareEstimator::Look GlareEstimator::lookAlong(const SetAtPoint& set, size_t num
   return look;
 }
 
-// Traces the direction once more, to separate indirect light from other light.
+// Traces the direction again, to separate indirect light from all other light.
 void GlareEstimator::retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, Look& look) const {
   Radiance indirect;
   int depth = -1;
@@ -211,7 +211,7 @@ void GlareEstimator::retrace(const V3d& eye, uint64_t seed, PathTracer& tracer, 
   look.direct = luminance(ray.value - indirect);
 }
 
-// The mean over rays that are spread evenly over the task.
+// The mean luminance of the task, from rays that are spread evenly over it.
 double GlareEstimator::taskLuminance(const SetAtPoint& set, const Gaze& gaze, PathTracer& tracer) const {
   const double below = options_.glare.taskBelow * kPi / 180, half = options_.glare.taskOpening * kPi / 360;
   const V3d axis = std::cos(below) * gaze.direction - std::sin(below) * gaze.up;
@@ -245,7 +245,7 @@ void GlareEstimator::addLamps(const View& view, Sources& sources) const {
   for (const auto& [surface, lamp] : lamps) sources.push_back(lamp);
 }
 
-// Adds the sources among directions that exceed the threshold. Peaks form sources separate from their
+// Adds the sources formed by directions above the threshold. Peaks become sources separate from their
 // surroundings.
 void GlareEstimator::addBright(const View& view, double threshold, Sources& sources) const {
   std::array<std::vector<const Look*>, 2> bright;

@@ -1,9 +1,9 @@
 #pragma once
-// Glare at an eye: what it receives from all directions, and which part of that comes from glare sources.
+// Glare at an eye: the light that it receives from all directions, and the part that comes from glare
+// sources.
 //
-// - Light sources of the scene that are in view, except distant ones: each is a glare source, whatever its
-//   luminance (CIE 117). Their solid angles are known, and shadow rays find the part in view
-//   (seen_sources.h).
+// - Visible light sources of the scene, except distant ones: each is a glare source, whatever its luminance
+//   (CIE 117). Their solid angles are known, and shadow rays find the visible part (seen_sources.h).
 // - Everything else that is brighter than a threshold (GlareOptions): the sky and the sun, images in mirrors,
 //   sunlit and other bright surfaces. As in evalglare, bright directions that are near each other form one
 //   source, and peaks among them, such as the sun, form separate sources. The directions are those of the
@@ -15,9 +15,9 @@
 // out the direction's own path, so that the noise of that path does not decide whether the direction belongs
 // to a source. The integrals over a source contain the light that the paths found, not the fit.
 //
-// Several independent sets of directions are averaged. The standard errors come from the differences between
-// answers that leave out one set each (jackknife); each of these answers looks for sources again. The errors
-// of single sources, however, are computed for the directions that belong to them in the whole answer.
+// Several independent sets of directions are averaged. Standard errors are jackknife estimates: each set is
+// left out in turn, and the sources are found again without it. The errors of single sources, however, are
+// computed for the directions that belong to them in the whole answer.
 #include <array>
 
 #include "importance/estimator.h"
@@ -28,8 +28,8 @@ namespace rsphere {
 // Shared by all threads. Keeps a reference to the transport.
 class GlareEstimator {
  public:
-  // Number of sets of directions. Each has its own pool of light vertices, so that no error is common to all
-  // sets.
+  // Number of sets of directions. Each has a separate pool of light vertices, so that all errors are
+  // independent between sets.
   static constexpr size_t kSets = DiffuseGlances::kPools;
 
   // options: as for SphereEstimator, with -Sw c.
@@ -38,7 +38,7 @@ class GlareEstimator {
   // The estimator of means. Its Workspace is also the state of one thread here.
   const SphereEstimator& means() const { return means_; }
 
-  // Depends on the eye, the gaze, the scene and the options alone. eye: world.
+  // The answer depends only on the eye, the gaze, the scene and the options. eye: world.
   GlareAnswer estimate(const V3d& eye, const Gaze& gaze, SphereEstimator::Workspace& workspace) const;
 
  private:
@@ -49,7 +49,7 @@ class GlareEstimator {
   struct Found {
     Sources sources;
     double threshold = 0;
-    GlareIndices indices, shifted;  // shifted: by the error that all sets share
+    GlareIndices indices, shifted;  // shifted: changed by the error that all sets share
   };
 
   void addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const;
@@ -61,7 +61,7 @@ class GlareEstimator {
   double threshold(const View& view) const;
   void addLamps(const View& view, Sources& sources) const;
   void addBright(const View& view, double threshold, Sources& sources) const;
-  // The sources that a view shows, and the indices that follow.
+  // Finds the glare sources of a view, and computes the indices.
   Found find(View view) const;
   double luminance(const Radiance& radiance) const;
 

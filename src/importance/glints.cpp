@@ -14,8 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The fraction of the brightness that the outer boundary of a ball mirrors at normal incidence. Images in
-// balls of trans are ignored.
+// Reflectance of the outer boundary of a ball at normal incidence, as brightness. Balls of trans are ignored.
 double reflectanceOf(const Material& material) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
@@ -26,8 +25,8 @@ double reflectanceOf(const Material& material) {
 
 static_assert(kShapes == 8, "Does a new shape mirror sources, or has it corners?");
 static_assert(kLightForms == 8, "Is its image that of a parallelogram, a disk or a polygon?");
-// A part of a source, so small that its image in a ball is hardly curved. Its members are places, or
-// directions (unit) if the source is distant.
+// A part of a source, small enough that its image in a ball is hardly curved. The members are positions, or
+// unit directions if the source is distant.
 struct Part {
   V3d middle;
   std::vector<V3d> corners;
@@ -85,8 +84,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   return parts;
 }
 
-// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It is rather
-// too large than too small.
+// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It errs on
+// the large side.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
   const auto ofBall = [&] {
     const double sine = std::min(1., source.radius / distance);
@@ -138,8 +137,8 @@ std::vector<Box3d> Glints::boxesOf(std::span<const Ball> balls) {
   return boxes;
 }
 
-// Whether `at` sees the source at one or more places of a part: its middle, and halfway to each corner, which
-// for a rectangle are the middles of its quarters.
+// Whether `at` sees the source at the middle of a part, or halfway from there to one of its corners (in a
+// rectangle, the middles of its quarters).
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
@@ -194,7 +193,7 @@ std::vector<Glint> Glints::find(const V3d& point, double least) const {
   for (const uint32_t i : hidden_.notHiddenFrom(point)) {
     const Sphere& ball = balls_[i].sphere;
     if (!((point - ball.center).length() - ball.radius > 1e-4 * ball.radius)) continue;
-    // Sources that its middle cannot see hardly shine on a ball.
+    // A ball receives little light from sources that are hidden from its middle.
     for (const uint32_t light : prepared_.lights().hidden().notHiddenFrom(ball.center))
       if (lights_[LightId(light)]) addOf(balls_[i], *lights_[LightId(light)], point, least, found);
   }

@@ -1,8 +1,8 @@
 #pragma once
-// The images of light sources in mirroring balls. Most of them are small and far brighter than everything
-// around them. The few directions that meet one by chance cause much variance, and the directions sent to the
-// ball are spread over all of it. The places of the images follow from the law of reflection, so that
-// directions can be aimed at them.
+// The images of light sources in mirroring balls. Most are small and far brighter than their surroundings:
+// the few directions that meet one by chance cause much variance, and directions sent to the ball are spread
+// over all of it. The law of reflection gives the places of the images, so that directions can be aimed at
+// them.
 #include <span>
 #include <vector>
 
@@ -21,15 +21,15 @@ struct Glint {
 
 class Glints {
  public:
-  // Uses those objects that are spheres of mirror, of glass or another dielectric, or of metal or
-  // plastic that is smoother than kSharpRoughness; and all sources that are not virtual. Keeps
-  // a reference to the prepared scene.
+  // Uses the objects that are spheres of mirror, of glass or another dielectric, or of metal or plastic
+  // smoother than kSharpRoughness, and all light sources except virtual ones. Keeps a reference to the
+  // prepared scene.
   Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects);
 
-  // The images that a point (world) sees; parts of one image follow each other. Two kinds are left out: those
-  // whose solid angle (sr) times squared brightness is estimated to be below `least`, and those that are
-  // hidden according to shadow rays, one from the point and up to five to the source. A point in or on a ball
-  // sees no image in it. Depends on the arguments alone.
+  // The images visible from a point (world); the parts of one image are successive. Omitted are images whose
+  // solid angle (sr) times squared brightness is estimated to be below `least`, and images that are hidden
+  // according to shadow rays, one from the point and up to five to the source. A point in or on a ball sees
+  // no image in that ball. The result depends only on the arguments.
   std::vector<Glint> find(const V3d& point, double least) const;
 
  private:

@@ -8,11 +8,11 @@
 namespace rsphere {
 namespace {
 
-// A place has its own vertices if the sources that can be seen there have less than this share of all power.
-// If they have more, a sufficient number of the paths from all sources reach the place.
+// A place gets separate vertices if the sources visible from it have less than this share of all power. If
+// they have more, enough of the paths from all sources reach the place.
 constexpr double kFewPower = .25;
-// Vertices are shared by a region of places. The region around a place is as large as possible while the
-// sources seen at the place have at least this share of the power of all sources seen in the region.
+// A region of places shares its vertices. The region around a place is as large as possible while the sources
+// visible from the place have at least this share of the power of all sources visible from the region.
 constexpr double kShared = .75;
 
 }  // namespace
@@ -33,7 +33,7 @@ double LightPools::powerOf(std::span<const uint32_t> sources) const {
   return sum;
 }
 
-// The sources that most paths for a point should come from; none if the vertices for no particular place
+// The sources from which most paths for a point should start; empty if the vertices common to all places
 // suffice.
 std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
   const HiddenBoxes& hidden = prepared_.lights().hidden();
@@ -58,8 +58,8 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     if (!known) known = std::make_shared<Pool>();
     found = known;
     found->asked = ++made_.asked;
-    // The pool whose latest request is the oldest is removed; points that still use it keep it until they are
-    // done.
+    // The pool that has not been requested for the longest time is removed. Points that still use it keep it
+    // until they are finished.
     if (made_.pools.size() > most_)
       made_.pools.erase(
           std::min_element(made_.pools.begin(), made_.pools.end(),

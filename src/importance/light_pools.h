@@ -1,8 +1,8 @@
 #pragma once
-// The light vertices (transport/light_vertices.h) that points use. In a building, few of the sources light
-// any one room, and few paths from all sources would reach it. Each room therefore has its own vertices. Most
-// of their paths come from the sources that can be seen in the room; the others come from all other sources,
-// whose light may arrive through other rooms.
+// The light vertices (transport/light_vertices.h) that points use. In a building, only a few of the sources
+// light any given room, and few of the paths from all sources reach it. Each room therefore has separate
+// vertices. Most of their paths start at the sources visible in the room; the others start at all remaining
+// sources, whose light may arrive through other rooms.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -18,14 +18,14 @@ namespace rsphere {
 class LightPools {
  public:
   // pools: number of independent pools of vertices for each place. paths: number of light paths in each pool.
-  // seed: of all random numbers. Keeps references.
+  // seed: determines all random numbers. Keeps references.
   LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools, size_t paths,
              uint64_t seed);
 
   // The vertices for a point (world), from the pool that the set of directions with this number uses. They
-  // are computed at the first request, and do not depend on earlier requests.
+  // are computed at the first request and do not depend on other requests.
   std::shared_ptr<const VertexLight> at(const V3d& point, uint64_t set) const;
-  // Vertices for no particular place: their paths come from all sources in proportion to power.
+  // Vertices common to all places: their paths start at all sources, in proportion to power.
   std::shared_ptr<const VertexLight> ofAll() const { return pool({}, 0); }
 
  private:

@@ -10,12 +10,12 @@
 namespace rsphere {
 namespace {
 
-// If a zone gets a share of a cell, the variance of its part is this times share (1 - share) times the
-// squared light of the cell. It is not 0, because the cell is divided approximately, as a few points of a
-// disk. By measurement where radiance is even. For cells in which the direction may lie anywhere, the factor
-// is 1.
+// If a zone gets a share of a cell, its variance is this factor times share (1 - share) times the squared
+// light of the cell. The factor is not 0, because the division of the cell is approximate: the cell is
+// represented by a few points of a disk. Measured where radiance is even. It is 1 for cells in which the
+// direction may be anywhere.
 constexpr double kBorder = .05;
-// sr, smaller than any bin: one without any direction has no light, and no division by 0.
+// sr, smaller than any bin. Avoids a division by 0 for bins without directions.
 constexpr double kLeastSolidAngle = 1e-12;
 
 }  // namespace

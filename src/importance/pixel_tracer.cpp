@@ -13,8 +13,8 @@ namespace {
 using Tuning = tuning::Pictures;
 
 static_assert(kMaterialTypes == 19, "Do neighboring pixels share its light?");
-// Whether the gloss of neighboring pixels is nearly the same: lobes are wider than a few pixels, and neither
-// a pattern nor a texture changes them from pixel to pixel.
+// Whether gloss changes little between neighboring pixels: its lobe is wider than a few pixels, and neither a
+// pattern nor a texture varies it.
 bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   if (hit.perturbation != V3d(0, 0, 0)) return false;
   if (const auto* opaque = std::get_if<Opaque>(&material))
@@ -23,8 +23,8 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   return trans && trans->roughness >= Tuning::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
-// Whether the light of sources changes little between neighboring pixels but for shadows: nothing but the
-// noise of soft shadows is then finer than a few pixels.
+// Whether the light of sources changes little between neighboring pixels except at shadows. Any finer
+// variation is then noise in soft shadows.
 bool sharesDirect(const Material& material, const SurfaceHit& hit) {
   if (hit.perturbation != V3d(0, 0, 0) || hit.pattern != Color(1, 1, 1)) return false;
   return std::holds_alternative<Opaque>(material) || std::holds_alternative<Trans>(material);
@@ -32,7 +32,8 @@ bool sharesDirect(const Material& material, const SurfaceHit& hit) {
 
 }  // namespace
 
-// Components are not separated in a medium, because they are observed before it attenuates them.
+// Components are not separated in a participating medium, because the observer sees them before the medium
+// attenuates them.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),
@@ -52,7 +53,7 @@ PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts p
 }
 
 PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
-  Radiance indirect, gloss, brought;  // brought: by all rays that the surface sends out
+  Radiance indirect, gloss, brought;  // brought: light of all rays that the surface sends out
   const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
     const PathContext& ray = end.context;
     if (ray.depth != 1) return;
@@ -71,7 +72,7 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   sample.shown = ray.shown;
   sample.rest = shownRgb(ray.value.color, sampling);
   sample.pattern = shownRgb(ray.pattern, sampling);
-  // Light cannot be divided by a pattern that is black in a channel, and is then not separated.
+  // Indirect light is divided by the pattern, which is impossible if the pattern is black in a channel.
   const V3d& pattern = sample.pattern;
   if (hit.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
     return sample;

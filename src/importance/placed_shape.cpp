@@ -12,7 +12,7 @@ Box3d boxAround(const Sphere& ball) { return ball.radius > 0 ? bounds(ball) : Bo
 
 Sphere ballAround(const Box3d& box) {
   if (box.isEmpty()) return {V3d(0, 0, 0), 0, false};
-  // The second term keeps the corners inside, as rounding may move them by an ulp of their coordinates.
+  // The second term allows for rounding of the corners, which is an ulp of their coordinates.
   const double reach = box.min.length() + box.max.length();
   return {box.center(), box.size().length() / 2 + 1e-15 * reach, false};
 }

@@ -14,15 +14,15 @@ struct PlacedShape {
   std::vector<V3d> vertices;
 };
 
-// A shape from an octree, converted to world coordinates; exact to rounding.
+// Converts a shape of an octree to world coordinates; exact to rounding.
 PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placement& placement);
 
 // A random point of a surface, in world coordinates. In an instance every surface is equally probable, in a
 // mesh every triangle; other shapes use their own samplePoint(). clearance is 0 if there is no point.
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random);
 
-// Balls around the contents of instances and meshes, in their own coordinates. Each is computed when it is
-// first asked for. Keeps a reference to the scene.
+// Balls around the contents of instances and meshes, in the coordinates of these. Each is computed at its
+// first use. Keeps a reference to the scene.
 class BoundingBalls {
  public:
   explicit BoundingBalls(const Scene& scene) : scene_(scene) {}

@@ -6,13 +6,13 @@
 
 namespace rsphere {
 
-// The quantities of one point that the -o letters of sphere mode name. F is the integral of the radiance L
+// The quantities at one point, each with its -o letter in sphere mode. F is the integral of the radiance L
 // over the sphere of directions (4 pi sr).
 struct PointAnswer {
   V3d point{0, 0, 0};                // o
   Radiance mean;                     // v  F/4pi
   Radiance standardError;            // e  of mean
-  double brightnessError = 0;        //    and of its brightness: -pY
+  double brightnessError = 0;        // and of its brightness: with -pY
   Irradiance scalarIrradiance;       // E  F/4
   Irradiance cylindricalIrradiance;  // C  (1/pi) integral of L sin(angle to z)
   Irradiance facing[6];              // H  irradiances of the six faces, +x -x +y -y +z -z
@@ -26,8 +26,9 @@ struct PointAnswer {
     double brightness = 0;
   };
   std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
-  bool isDark = false;                // almost no directions found light, or so little light that -Sa gave up
-  bool reached = true;                // whether the standard error that -Sa asks for was reached
+  bool isDark = false;                // almost no direction found light, or -Sa stopped because there was so
+                                      // little
+  bool reached = true;                // whether the standard error requested with -Sa was reached
 };
 
 }  // namespace rsphere

@@ -85,7 +85,7 @@ std::string viewLine(const V3d& p) {
 
 namespace {
 
-// The pattern with a %d before its suffix.
+// Inserts %d before the suffix of the pattern.
 std::string withNumber(std::string pattern) {
   const size_t folder = pattern.rfind('/') + 1, dot = pattern.rfind('.');
   return pattern.insert(dot == std::string::npos || dot < folder ? pattern.size() : dot, "%d");

@@ -13,12 +13,12 @@ namespace rsphere {
 
 // The projection of directions onto a picture.
 enum class Projection {
-  // The sphere as seen from within: +y is in the middle, +x to the right of it at a quarter of the width, -y
-  // at both edges. Columns are the azimuth in even steps; rows go from the zenith +z to the nadir.
+  // The sphere as seen from within: +y is in the middle, +x to its right at a quarter of the width, -y at
+  // both edges. Columns are even steps of azimuth; rows descend from the zenith +z to the nadir.
   latitudeLongitude,
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
-  // from +y is proportional to the distance from the middle, pi at the rim. The corners are black. (RADIANCE
-  // has no view like latitudeLongitude.)
+  // from +y is proportional to the distance from the middle, and reaches pi at the rim. The corners are
+  // black.
   angularFisheye
 };
 
@@ -26,7 +26,7 @@ class PixelMap {
  public:
   PixelMap(Projection projection, int width, int height)
       : projection_(projection), width_(width), height_(height) {}
-  // With about half a million pixels, one per .35 degrees (latitudeLongitude) or .45 degrees.
+  // With about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye).
   explicit PixelMap(Projection projection)
       : PixelMap(projection, projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 1024,
                  projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 512) {}
@@ -36,13 +36,13 @@ class PixelMap {
   bool wraps() const { return projection_ == Projection::latitudeLongitude; }
   size_t count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
 
-  // The direction (unit, world) of a place on the picture, in pixels from its upper left corner. The middles
-  // of pixels have half-integer coordinates. Empty beyond the rim.
+  // The direction (unit, world) at a position in pixels from the upper left corner of the picture. The
+  // middles of pixels have half-integer coordinates. Empty outside the rim.
   std::optional<V3d> direction(double x, double y) const;
-  // The index of the pixel that shows a direction (unit), row by row.
+  // The pixel that shows a direction (unit); pixels are numbered row by row.
   size_t pixelOf(const V3d& direction) const;
-  // The solid angle of a pixel, sr: exact for latitudeLongitude, to first order in its width for
-  // angularFisheye; 0 beyond the rim.
+  // The solid angle of a pixel, sr: exact for latitudeLongitude, to first order in the pixel's width for
+  // angularFisheye; 0 outside the rim.
   double solidAngle(size_t pixel) const;
 
  private:
@@ -60,19 +60,19 @@ inline void setValue(Raster& raster, size_t pixel, const V3d& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// The factor by which the median brightness of the pixels that are not black, by solid angle, becomes .5 on
-// the sRGB curve, so that a room is visible however bright the sources in it are.
+// The exposure at which the median brightness of all pixels that are not black, weighted by solid angle,
+// becomes .5 in sRGB. A room is then visible however bright its sources are.
 double exposureOf(const Raster& raster, const PixelMap& map);
 
 // Converts radiance to screen colors.
 void toScreen(Raster& raster, double exposure);
 
 // The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws
-// rad::Error if there is another %, or if there is no %d for a record after the first, because its picture
-// would overwrite the one before.
+// rad::Error if there is any other %, or if a record after the first has no %d, because its picture would
+// overwrite the previous one.
 std::string pictureName(const std::string& pattern, uint64_t record);
 
-// The line of a RADIANCE picture's header with the view of the angular fisheye, including its line end.
+// The header line of a RADIANCE picture that describes the angular fisheye view, including its line end.
 std::string viewLine(const V3d& point);
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// Strategies of choosing and weighting directions (-Sw), and one set of directions at a point.
+// Strategies that choose and weight directions (-Sw), and one set of directions at a point.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,7 +17,7 @@ namespace rsphere {
 // One of the sets of directions that are averaged at a point.
 class SetAtPoint {
  public:
-  // point: world. number: of the sets at this point, from 0. rotation: -Sr. gaze: Moments::gaze.
+  // point: world. number: of the set, from 0. rotation: -Sr. gaze: Moments::gaze.
   SetAtPoint(const V3d& point, uint64_t number, uint64_t rotation, const std::optional<V3d>& gaze = {});
 
   const V3d& point() const { return point_; }
@@ -25,13 +25,13 @@ class SetAtPoint {
 
   uint64_t number() const { return number_; }
 
-  // Every random number of the set follows from it. Each strategy adds the number of a stream to it.
+  // All random numbers of the set follow from this seed. A strategy adds the number of a stream to it.
   uint64_t seed() const { return seed_; }
 
-  // Whether it is the first set, which uses all directions as they are given.
+  // Whether it is the first set, whose directions are not turned.
   bool isFirst() const { return number_ == 0; }
 
-  // The directions as given for the first set; for any other, turned by the random rotation of the set.
+  // Applies the set's random rotation to the directions. The first set keeps them as they are.
   std::vector<V3d> turned(std::span<const V3d> directions) const;
 
  private:
@@ -44,30 +44,32 @@ class SetAtPoint {
 struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // light found by glances minus the guesses of samples; 0 without glances
+  Moments excess;               // correction of the control variate: light found by glances minus the guesses
+                                // of samples; 0 without glances
   Irradiance clamped;           // light that -Sf removed from moments().total
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
-  SharedError shared;           // in addition to variance
-  ZoneVariances ofZones;        // as variance
-  std::vector<SharedError> sharedByZone;  // in addition to ofZones; empty: none
+  SharedError shared;           // error due to light vertices, not in `variance`
+  ZoneVariances ofZones;        // `variance` by zone
+  std::vector<SharedError> sharedByZone;  // `shared` by zone; empty without zones
   size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
 
   // The set's estimate of the integrals over all directions. gaze: that of its SetAtPoint.
   Moments moments(const BaseSet& base, const std::optional<V3d>& gaze = {}) const;
 };
 
-// Traces each direction once and gives it its solid angle (sr). The random numbers of direction i
-// have stream i of the set.
+// Traces each direction once and gives it its solid angle (sr). Direction i uses random numbers of stream i
+// of the set.
 SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
                      std::span<const double> solidAngles, bool keepRays, PathTracer& tracer);
 
-// A strategy of choosing directions and weighting them. Shared by all threads.
+// A strategy that chooses and weights directions. Shared by all threads.
 class SamplingStrategy {
  public:
   virtual ~SamplingStrategy() = default;
 
-  // Depends on the set, the scene and the options alone. tracer, memory: the thread's; memory is kept for
-  // speed alone. Throws rad::Error if solid angles fail the check of -Sv.
+  // Traces one set of directions. The result depends only on the set, the scene and the options. tracer,
+  // memory: of the calling thread; memory only saves time. Throws rad::Error if solid angles fail the check
+  // of -Sv.
   virtual SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const = 0;
 };
 

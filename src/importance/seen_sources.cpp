@@ -17,8 +17,8 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SeenSources;
 
-// The fraction of light that a plane surface mirrors without any blur at this cosine of incidence. The color
-// of metals is ignored, and panes mirror at both boundaries. If it is 0 at one angle, it is 0 at all angles.
+// The sharp reflectance of a plane surface at this cosine of incidence. It ignores the color of metals, and
+// includes both boundaries of panes. If it is 0 at one angle, it is 0 at all angles.
 double sharpReflectance(const Material& material, double cosine = 1) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
@@ -29,7 +29,7 @@ double sharpReflectance(const Material& material, double cosine = 1) {
   return mirrored->roughness > 0 ? 0 : mirrored->share;
 }
 
-// The area within the outline of a plane shape, of a ring with its hole.
+// The area of a plane shape; of a ring including its hole.
 double outlinedArea(ShapeRef shape, std::span<const V3d> vertices) {
   return match(
       shape, [&](const Polygon& polygon) { return areaOf(polygon, vertices); },
@@ -43,7 +43,7 @@ bool emitsBehind(ShapeRef shape, const V3d& point) {
   return normal && normal->dot(point) <= planeOffset(shape);
 }
 
-// Whether the shape fills its region.
+// Whether the shape fills its silhouette's region.
 bool fills(ShapeRef shape, const Silhouette& s) {
   return match(
       shape, [](const OneOf<Sphere, Distant> auto&) { return true; },
@@ -55,7 +55,7 @@ bool fills(ShapeRef shape, const Silhouette& s) {
 
 bool hits(const Scene& scene, ShapeRef shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
   if (isPlain(shape)) return intersect(shape, scene.vertices, point, direction, kFarAway, hit);
-  // A distant source. All directions that are tested are within its cone.
+  // A distant source: all tested directions are within its cone.
   hit = {kFarAway, -direction, 1};
   return true;
 }
@@ -72,7 +72,7 @@ struct Plane {
 
 using Image = SeenSources::Image;
 
-// What a ray to the image shows if nothing hides it.
+// The source, and the mirror if any, that an unobstructed ray to the image shows.
 ShownSource shownBy(const PreparedScene& prepared, const Image& image) {
   return {prepared.lights().all()[image.source].surface, image.mirror};
 }
@@ -81,7 +81,7 @@ ShapeRef shapeOf(const PreparedScene& prepared, const Image& image) {
   return prepared.scene().surfaces[shownBy(prepared, image).source].shape;
 }
 
-// A sensor is so small that its middle represents all of it.
+// A sensor is so small that its middle represents it.
 bool isSensor(const PreparedScene& prepared, LightId source) {
   return prepared.scene().surfaces[prepared.lights().all()[source].surface].finish.sensor;
 }
@@ -94,13 +94,13 @@ double sightOfSensor(const LightSource& light, const V3d& eye, V3d& direction) {
   return square.area * std::max(0., -square.normal.dot(direction)) / to.length2();
 }
 
-// Where the source is seen from: a point, or its mirror image behind the mirror.
+// The point from which the source is seen: the point itself, or its mirror image behind the mirror.
 V3d eyeOf(const Scene& scene, const Image& image, const V3d& point) {
   return image.mirror == kNone ? point : Plane(scene.surfaces[image.mirror].shape).mirrored(point);
 }
 
-// expected: what the ray shows if nothing hides the image. The solid angle becomes 1 if the ray shows that, 0
-// otherwise; it is scaled later.
+// Sets ray, value and solid angle. The solid angle becomes 1 if the ray shows `expected`, which means that
+// nothing hides the image, and 0 otherwise; it is scaled later.
 void setRay(SeenSources::Sample& sample, const TracedRay& ray, const ShownSource& expected) {
   sample.ray = ray;
   sample.direction.toSource = true;
@@ -118,7 +118,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
   for (const LightId i : lights.ids()) {
     const Surface& surface = scene.surfaces[lights[i].surface];
     const Material* material = scene.materialOf(surface);
-    // Instead of virtual sources, addMirrored() finds the images in mirrors that they represent.
+    // Virtual sources are skipped: addMirrored() finds the images in mirrors that they represent.
     if (lights[i].isVirtual() || (material && std::holds_alternative<Illum>(*material))) continue;
     apart_[lights[i].surface] = true;
     haveSensors_ = haveSensors_ || surface.finish.sensor;
@@ -192,7 +192,8 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   return images;
 }
 
-// Sets solid angle, filled and region of an image as seen from an eye. window: of its mirror; null: none.
+// Sets solidAngle, filled and region of an image as seen from an eye. window: silhouette of its mirror; null:
+// seen directly.
 void SeenSources::setExtent(Image& image, const V3d& eye, const Silhouette* window) const {
   if (isSensor(prepared_, image.source)) {
     V3d direction;
@@ -205,7 +206,7 @@ void SeenSources::setExtent(Image& image, const V3d& eye, const Silhouette* wind
   image.solidAngle = image.region.regionSolidAngle();
 }
 
-// A direction in which an eye sees the image, at a place in the unit square.
+// The direction from an eye to the image at (u, v) of the unit square.
 V3d SeenSources::directionIn(const Image& image, const V3d& eye, double u, double v) const {
   if (!isSensor(prepared_, image.source)) return image.region.sample(u, v);
   V3d direction;
@@ -213,7 +214,7 @@ V3d SeenSources::directionIn(const Image& image, const V3d& eye, double u, doubl
   return direction;
 }
 
-// As seen from the mirror image of the point, the mirror is a window through which the source is seen.
+// Seen from the mirror image of the point, the mirror is a window through which the source is visible.
 void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) const {
   const Scene& scene = prepared_.scene();
   const auto& lights = prepared_.lights().all();
@@ -254,7 +255,8 @@ std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, con
                                                      uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Some of the images with less than one ray are sampled, and represent the others.
+  // Images with less than one ray are sampled with that probability, with a weight that represents the
+  // others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -291,7 +293,7 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
           image.mirror == kNone ? sampleStraight(paths, image, cell) : sampleMirrored(paths, image, cell);
       if (s) samples.push_back(std::move(*s));
     }
-  // The solid angle of the image is known; it is divided among the samples that met the source.
+  // The solid angle of the image is known. It is divided among the samples that hit the source.
   int aimed = 0;
   for (const Sample& s : samples) aimed += s.aimed;
   const double each = share.solidAngle * filled / std::max(1, aimed);
@@ -302,8 +304,8 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
   return samples;
 }
 
-// The fraction of an image's region that shows the source if nothing hides it. eye: the point, or its mirror
-// image.
+// The fraction of an image's region that shows the source if nothing is in front of it. eye: the point, or
+// its mirror image.
 double SeenSources::filledShare(const Image& image, const V3d& eye, Random& random) const {
   const ShapeRef shape = shapeOf(prepared_, image);
   const double shift1 = random.uniform(), shift2 = random.uniform();
@@ -333,8 +335,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& 
   return s;
 }
 
-// Sends shadow rays to places all over one cell of the image's grid. The sample is drawn from the rays that
-// reached the source, or from all rays if something opaque stopped each of them.
+// Sends shadow rays to positions all over one cell of the image's grid. The sample is drawn from the rays
+// that reached the source, or from all rays if all are blocked by opaque surfaces.
 std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& paths, const Image& image,
                                                                const Cell& cell) const {
   const V3d& point = paths.point();
@@ -354,7 +356,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& 
       ++s.aimed;
       const bool clear = prepared_.tracer().shadow(point, direction, on.distance, source) != Shadow::blocked;
       s.clear += clear;
-      // The nth ray replaces the choice so far with probability 1/n, which makes all n equally probable.
+      // Reservoir sampling: the nth ray replaces the current choice with probability 1/n, so that all n are
+      // equally probable.
       if (clear ? lot * s.clear < 1 : s.clear == 0 && lot * s.aimed < 1) {
         s.direction.direction = direction;
         chosen = on;

@@ -15,22 +15,23 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::Silhouettes;
 
-// Error of unit vectors and of their products, a few ulp of 1. Directions on the edge of a region are in it.
+// Rounding error of unit vectors and their products, a few ulp of 1. Directions on the edge of a region are
+// inside.
 constexpr double kRounding = 1e-15;
 
-// Smallest versine (1 - cos) of the half angle of a convex polygon, 4.5e-7 rad. In narrower ones the rounding
-// of the corners exceeds 1e-10 of the width, so that a cap around the polygon replaces it.
+// Smallest versine (1 - cos) of the half angle of a convex polygon, 4.5e-7 rad. A narrower polygon is
+// replaced by a cap around it, because rounding of its corners exceeds 1e-10 of its width.
 constexpr double kTiny = 1e-13;
 
-// Whether a point is so near to a plane that no ray from there hits it: the distance to the hit or the cosine
-// would be below kSamePlace.
+// Whether a point is so close to a plane that no ray from there hits it: the distance to the hit or the
+// cosine would be below kSamePlace.
 bool liesInPlane(double height, double coordinates) {
   return std::abs(height) <= std::max(kSamePlace * kSamePlace, 4 * kRounding * coordinates);
 }
 
 double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-// The largest distance by which a corner lies outside a side. It is due to rounding if the polygon is convex.
+// The largest distance by which any corner lies outside any side. In a convex polygon it is a rounding error.
 double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>& sides) {
   double outside = 0;
   for (const V3d& side : sides)
@@ -87,8 +88,8 @@ void Silhouette::setBall(const V3d& center, double radius, const V3d& point) {
   solidAngle_ = regionSolidAngle_;
 }
 
-// Sets the region to a convex polygon whose corners (world) are given in order. False if it is too small or
-// not convex; only axis and versine are set then.
+// Sets the region to a convex polygon with the given corners (world, in order). False if it is too small or
+// not convex; only the axis and the versine are valid then.
 bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   corners_.clear();
   sides_.clear();
@@ -98,7 +99,7 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
     sum += triangleSolidAngle(corners[0], corners[i - 1], corners[i], point);
     shares_.push_back(std::abs(sum));
   }
-  // The normals of the sides point inwards if the corners are seen counterclockwise.
+  // The normals of the sides point inwards if the corners are counterclockwise as seen from the point.
   const double inward = sum < 0 ? -1 : 1;
   V3d middle(0, 0, 0);
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -114,7 +115,7 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   for (const V3d& corner : corners_)
     cap_.versine = std::max(cap_.versine, (corner - cap_.axis).length2() / 2);
   const double outside = largestReentrance(corners_, sides_);
-  // Arcs between nearly opposite corners magnify the rounding of the corners.
+  // Arcs between nearly opposite corners magnify rounding errors.
   slack_ = outside + 2 * kRounding / std::max(1 - cap_.versine, 1e-7);
   regionSolidAngle_ = std::abs(sum);
   return corners_.size() == corners.size() && cap_.versine > kTiny && outside <= 100 * kRounding &&
@@ -134,8 +135,8 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
   setCap(cap_.axis, cap_.versine);
 }
 
-// Sets the region to the convex hull of points, found on the plane perpendicular to their mean direction
-// (Andrew's monotone chain). False if they reach beyond kWidestHull.
+// Sets the region to the convex hull of points (Andrew's monotone chain, on the plane perpendicular to their
+// mean direction). False if they extend beyond kWidestHull.
 bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
   V3d middle(0, 0, 0), x, y;
   for (const V3d& p : points) middle += p - point;
@@ -261,7 +262,8 @@ Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d
     if (thicknessOf(polygon, vertices) <= kSamePlace) {
       s.setPolygon(polygon, around, point);
     } else {
-      // Rays hit the polygon in its mean plane, with the vertices moved there along the axis.
+      // Rays hit the polygon in its mean plane. The vertices are moved into that plane, along the polygon's
+      // axis.
       std::vector<V3d> flat(around.begin(), around.end());
       for (V3d& v : flat)
         v[polygon.axis] += (polygon.offset - polygon.normal.dot(v)) / polygon.normal[polygon.axis];

@@ -7,12 +7,12 @@
 
 namespace rsphere {
 
-// A region on the sphere of directions that contains every direction in which an object can be seen, and that
-// can be sampled evenly: a cap or a convex spherical polygon.
+// A region of the sphere of directions that contains all directions in which an object is visible, and that
+// can be sampled uniformly: a cap or a convex spherical polygon.
 // - For spheres, distant sources and convex polygons it is the silhouette itself.
 // - For rings, cones and cylinders it is the convex hull of polygons around their circles, at most 1.5% wider
-//   than the silhouette except for a ring's hole; or a cap around them, if they reach beyond a cone of half
-//   angle tuning::Silhouettes::kWidestHull.
+//   than the silhouette, not counting the hole of a ring. If they extend beyond a cone of half angle
+//   tuning::Silhouettes::kWidestHull, it is a cap.
 // - For other polygons it is a cap.
 class Silhouette {
  public:
@@ -20,14 +20,14 @@ class Silhouette {
   Silhouette() = default;
 
   // The solid angle of the object, sr. For spheres and polygons it is exact to rounding: 0 in the plane of a
-  // polygon, 4 pi inside a sphere. For cones, cylinders and rings it is that of the region. A vertex outside
-  // the mean plane of its polygon is taken where rays hit the polygon, in that plane.
+  // polygon, 4 pi inside a sphere. For cones, cylinders and rings it is that of the region. Vertices outside
+  // the mean plane of a polygon are moved into that plane, where rays hit the polygon.
   double solidAngle() const { return solidAngle_; }
   // The solid angle of the region, sr; not less than solidAngle().
   double regionSolidAngle() const { return regionSolidAngle_; }
 
-  // direction: unit. Directions within rounding of the edge are inside, so that those from sample() always
-  // are: 2e-15 rad, up to 1e-8 if a polygon reaches round half of the sphere.
+  // direction: unit. Directions that rounding puts outside the edge are included, so that those from sample()
+  // always are. The tolerance is 2e-15 rad, and up to 1e-8 for a polygon as wide as a hemisphere.
   bool contains(const V3d& direction) const;
 
   // A direction of the region, uniform by solid angle if u1, u2 are uniform in [0, 1]. REQUIRES
@@ -64,22 +64,22 @@ class Silhouette {
   Around cap_;
   std::vector<V3d> corners_;    // of the convex polygon; empty: a cap
   std::vector<V3d> sides_;      // inward normals of its sides, unit
-  double slack_ = 0;            // how far outside a side rounding may move a direction, rad
+  double slack_ = 0;            // tolerance for rounding outside a side, rad
   std::vector<double> shares_;  // cumulative solid angles of the triangles around corner 0
 };
 
 // The silhouette of a shape as seen from a point (world). vertices: Scene::vertices.
 Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d& point);
 
-// The convex hull of places (world) as seen from a point. Empty if they span no area, or reach beyond a cone
+// The convex hull of places (world) as seen from a point. Empty if it has no area, or extends beyond a cone
 // of half angle tuning::Silhouettes::kWidestHull.
 Silhouette hullOf(std::span<const V3d> around, const V3d& point);
 
 // Solid angle (sr) of a plane polygon as seen from a point. The polygon may be concave and may have holes
-// that are connected by a seam. 0 if the point lies in the plane, or so near to it (1e-12 world units, or
-// rounding of the coordinates) that no ray from there hits the polygon. Error: 1e-15 sr per vertex; for small
-// polygons, 1e-15 of the solid angle per vertex, over the sine of the angle between plane and view. Source:
-// Van Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng. 30/2, summed with signs.
+// that are connected by a seam. 0 if the point lies in the plane, or so close to it (1e-12 world units, or
+// rounding of the coordinates) that no ray from there hits the polygon. Error per vertex: 1e-15 sr; for small
+// polygons, 1e-15 of the solid angle divided by the sine of the angle between plane and view. Source: Van
+// Oosterom and Strackee 1983, IEEE Trans. Biomed. Eng. 30/2, summed with signs.
 double polygonSolidAngle(std::span<const V3d> vertices, const V3d& point);
 
 }  // namespace rsphere

@@ -7,8 +7,8 @@
 namespace rsphere {
 namespace {
 
-// The direction to a place on a face of the cube. The face is that of the largest coordinate; u and v are the
-// two others divided by it, -1 to 1.
+// The direction to a position on a face of the cube. The largest coordinate determines the face; u and v are
+// the other two divided by it, -1 to 1.
 V3d onFace(int face, double u, double v) {
   V3d d;
   const int axis = face / 2;
@@ -18,7 +18,8 @@ V3d onFace(int face, double u, double v) {
   return d.normalized();
 }
 
-// A cell, within a cap around its middle. radius: half angle, radians; cosine and sine are of it.
+// A cell, enclosed in a cap around its middle. radius: half angle of the cap, radians, with its cosine and
+// sine.
 struct Cell {
   V3d middle;
   double radius, cosine, sine;

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the silhouettes that may contain a direction. Most do not contain it, and testing all of them took a
-// fifth of the time of a point.
+// Finds the silhouettes that may contain a direction. Testing all silhouettes took a fifth of the time of a
+// point.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace rsphere {
 
-// The sphere of directions, divided into the cells of a cube's faces. Each cell lists the silhouettes whose
-// surrounding caps reach into it.
+// Divides the sphere of directions into cells on the faces of a cube. Each cell lists the silhouettes whose
+// surrounding caps overlap it.
 class SilhouetteIndex {
  public:
-  // number: identifies the silhouette in the answers of near().
+  // number: the name of the silhouette in the result of near().
   void add(uint32_t number, const Silhouette& silhouette);
 
-  // The numbers, in the order in which they were added, of all silhouettes that contain the direction (unit),
-  // and of some that do not.
+  // The numbers of all silhouettes that contain the direction (unit), and of some that do not, in the order
+  // in which they were added.
   std::span<const uint32_t> near(const V3d& direction) const;
 
  private:

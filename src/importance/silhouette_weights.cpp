@@ -17,14 +17,14 @@ namespace {
 using std::numbers::pi;
 using Tuning = tuning::SilhouetteWeights;
 
-// The streams of random numbers of a set, named after their uses. They are separate, so that a use that draws
-// more numbers does not change the others.
+// Streams of random numbers in a set, named after their uses. They are separate, so that drawing more numbers
+// in one leaves the others unchanged.
 enum class Stream : uint64_t {
   imagesOfSources = 1,
   raysAround = 2,
   dynamicDirections = 3,
   guess = 4,
-  firstRay = 16,  // of the first direction; the following numbers belong to the next directions
+  firstRay = 16,  // of the first direction; the next directions have the numbers that follow
 };
 
 uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
@@ -37,21 +37,21 @@ double solidAngleOf(std::span<const SeenSources::Sample> samples) {
   return sum;
 }
 
-// Light sources that are integrated separately, and the mirrors that show them, are not guessed.
+// No guess is made for light sources that are integrated separately, nor for mirrors that show them.
 ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
   ById<SurfaceId, bool> unguessed = sources.apart();
   for (const SurfaceId mirror : sources.mirrors()) unguessed[mirror] = true;
   return unguessed;
 }
 
-// beside: the directions that -Sx allows besides the base directions.
+// beside: number of directions that -Sx allows in addition to the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
   const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages,
                                 static_cast<size_t>(tuning::SeenSources::kUsualRays));
   return glances ? std::max(usual, std::min(base, beside / 2)) : usual;
 }
 
-// The directions of guesses; none by daylight, where these gain nothing.
+// The glances for the guess; none by daylight, where guessing has no benefit.
 std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& options) {
   if (!prepared.lights().distant().empty()) return {};
   const auto count = static_cast<size_t>(options.baseDirections);
@@ -60,7 +60,7 @@ std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& 
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 
-// Directions to images of sources, followed by the others, as one set.
+// Joins the directions to images of sources and the other directions into one set.
 SampledSet joined(std::span<const SeenSources::Sample> toImages, const SampledSet& others, bool keepRays) {
   SampledSet all;
   all.samples.reserve(toImages.size() + others.samples.size());
@@ -175,7 +175,7 @@ SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const 
 void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) const {
   plan.directions = set.turned(base_.directions);
   Random random(seedOf(set, Stream::dynamicDirections));
-  // A running sum over all targets gives each a whole number of directions with the right average.
+  // Accumulating the expected numbers gives each target a whole number of directions with the right average.
   double due = random.uniform();
   for (const Target& target : plan.targets.all()) {
     due += target.expected;
@@ -220,7 +220,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
   return sampled;
 }
 
-// If glances find all of the light of diffuse surfaces, rays leave it out. With -Sd, one glance along each
+// If glances find all light of diffuse surfaces, traced rays leave it out. With -Sd, one glance along each
 // direction then estimates it.
 Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
                                        const V3d& direction, const TracedRay& ray) const {
@@ -237,7 +237,7 @@ DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, co
   return found;
 }
 
-// Adds the guesses along many glances.
+// Adds the guesses along the glances.
 void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess,
                                    DiffuseGlances::Found& found) const {
   const double cell = 4 * pi / static_cast<double>(guidance_->glances.size());

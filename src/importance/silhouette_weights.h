@@ -15,27 +15,26 @@ namespace rsphere {
 // -Sw c, the default. It differs from the paper's rule (voronoi_weights.h) as follows:
 // - Light sources that are seen directly cause nearly all of the variance, so they are integrated separately
 //   (seen_sources.h).
-// - Cells keep to the silhouettes. The cell of a base direction is its Voronoi cell on the sphere; inside a
-//   silhouette it is shared with the dynamic directions that were sent there, in proportion to their numbers.
-//   The cells in a silhouette add up to its solid angle, unless others overlap it, and the cells outside all
-//   silhouettes add up to the remaining solid angle (cells_in_targets.h). Plain cells reach over the
-//   silhouette's edge from the dense side and bias the mean by a percent.
-// - The number of directions to a special object depends on how much the radiance on it varies, compared with
-//   its surroundings. Separate rays measure the variation, so that the mean stays unbiased (targets.h).
-//   Openings that show daylight, and spots of sunlight that enters through them, also get directions of their
-//   own.
+// - Cells end at silhouettes. A base direction has its Voronoi cell on the sphere. Inside a silhouette, it
+//   shares this cell with the dynamic directions sent there, in proportion to their numbers. The cells in a
+//   silhouette add up to its solid angle, unless it overlaps others, and the cells outside all silhouettes
+//   add up to the remaining solid angle (cells_in_targets.h). Plain Voronoi cells would extend across the
+//   silhouette's edge from the dense side, which biases the mean by a percent.
+// - The number of directions to a special object depends on how much its radiance varies, compared with its
+//   surroundings. Separate rays measure the variation, so that the mean stays unbiased (targets.h). Openings
+//   that show daylight, and spots of sunlight that enters through them, also get directions.
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
-// - In scenes with lamps, many glances and shadow rays to light vertices, instead of these directions,
-//   estimate the light of plain diffuse surfaces (diffuse_glances.h).
+// - In scenes with lamps, the light of plain diffuse surfaces is estimated by glances and by shadow rays to
+//   light vertices instead of these directions (diffuse_glances.h).
 // - In other scenes with lamps, a control variate reduces the variance of diffuse surfaces
-//   (transport/radiance_guess.h). Many glances, rays that are not followed beyond their first hit, estimate
-//   its integral. Directions only estimate the difference.
+//   (transport/radiance_guess.h). Its integral is estimated by glances, rays that are not followed beyond
+//   their first hit. Traced directions only estimate the difference.
 // With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. glances: null if they do not find all of the light of diffuse surfaces;
-  // otherwise they are used instead of the guess.
+  // Keeps references to all of them. glances: used instead of the guess; null if glances would miss some of
+  // the light of diffuse surfaces.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const DiffuseGlances* glances);
@@ -45,50 +44,51 @@ class SilhouetteWeights : public SamplingStrategy {
  private:
   using Images = std::vector<SeenSources::Image>;
 
-  // Means to reduce the variance of light that does not come directly from sources.
+  // Data for reducing the variance of light that does not come directly from sources.
   struct Guidance {
     TargetChoice targets;
     RadianceGuess guess;
-    std::vector<V3d> glances, fitGlances;  // no glances: nothing is guessed
-    std::optional<Neighbours> neighbours;  // of glances, if standard errors are wanted
+    std::vector<V3d> glances, fitGlances;  // empty glances: no guess is made
+    std::optional<Neighbours> neighbours;  // of glances; empty unless standard errors are requested
   };
 
   // Stage 1: information about the view from a point, before directions are chosen.
   struct View {
     Images images;              // of sources that are integrated separately
-    double meanBrightness = 0;  // of the light that other directions find, W/sr/m2
+    double meanBrightness = 0;  // of light found by the other directions, W/sr/m2
     std::optional<LocalGuess> guess;
-    DiffuseGlances::Found glanced;  // 0 where glances do not find all of the light of diffuse surfaces
+    DiffuseGlances::Found glanced;  // 0 where glances miss some of the light of diffuse surfaces
   };
   View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
-  // Sets meanBrightness and guess, by rays whose radiances are used for nothing else.
+  // Sets meanBrightness and guess. The radiances of its rays are used for nothing else.
   void lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const;
 
   // Stage 2: the directions that are not sent to images of sources.
   struct Plan {
     Targets targets{std::vector<Target>()};
-    // The base directions, then a run for each target or for all parts of one image.
+    // The base directions, then one run of directions for each target, or for all parts of one image.
     std::vector<V3d> directions;
-    std::vector<size_t> runs;  // where each run begins, then the end of the last
+    std::vector<size_t> runs;  // index of the first direction of each run, and one past the last run
     double solidAngle = 0;     // total of these directions, sr
   };
   Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
   // Sets directions and runs.
   void chooseDirections(const SetAtPoint& set, Plan& plan) const;
 
-  // Stage 3: traces and weights the directions of the plan. Those that show an image of a light source, which
-  // has samples of its own, are in kNoRegion; their solid angle, radiance and guess are 0.
+  // Stage 3: traces and weights the directions of the plan. Directions that show a separately sampled image
+  // of a light source are in kNoRegion, with solid angle, radiance and guess 0.
   SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
-  // The part of the light along direction number i that glances estimate.
+  // The light along direction number i that is estimated by glances.
   Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
                       const TracedRay& ray) const;
 
-  // Stage 4: the light that glances find, minus the guesses of the directions.
+  // Stage 4: the correction of the control variate: light found by glances, minus the guesses of the
+  // directions.
   DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view,
                                       std::span<const DirectionSample> others) const;
   void addGlances(const SetAtPoint& set, const LocalGuess& guess, DiffuseGlances::Found& found) const;
 
-  // Stage 5: the variance due to both kinds of directions, but not glances. to: as in error_estimate.h.
+  // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
                       std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
 

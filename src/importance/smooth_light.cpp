@@ -14,7 +14,7 @@ struct Average {
   float known = 0;
 };
 
-// The weight of light b in the average around light a.
+// The weight of light b in an average around light a: small if they differ by more than sameLight.
 float similarity(const Imath::V3f& a, const Imath::V3f& b, float sameLight) {
   const Imath::V3f apart = (b - a) / (sameLight * (a + b) / 2 + Imath::V3f(1e-20f));
   return std::exp(-apart.length2() / 6);

@@ -25,10 +25,10 @@ struct PixelLight {
   std::vector<float> known;  // fraction of the surrounding pixels with sampled light; 0: light is undefined
 };
 
-// How pixels share light.
+// Parameters of the smoothing.
 struct Smoothing {
-  int passes = 0;   // each reaches twice as far as the one before
-  int careful = 0;  // the number of further passes, in which pixels share light only if it is nearly the same
+  int passes = 0;        // each with twice the reach of the preceding one
+  int careful = 0;       // number of further passes, in which pixels share light only if it differs little
   float sameLight = 0;   // largest relative difference: tuning::Pictures::kSameLight
   float sameNormal = 0;  // least cosine between the normals
   float near = 0;        // tuning::Pictures::kNear
@@ -37,13 +37,12 @@ struct Smoothing {
 // Whether two pixels show the same material on the same flat or slightly curved surface.
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing);
 
-// Averages the light over nearby pixels that may share it. Pixels without light of their own get that of
-// their neighbors, and stay at known 0 if they have none. Edges of surfaces are not crossed. Together, passes
-// with steps of 1, 2 and 4 pixels act like a Gaussian with a standard deviation of 4.6 pixels: they blur
-// light that changes over shorter distances, and reduce the noise to a sixteenth. Of the differences that
-// remain, small ones are mostly noise and large ones are shadows; careful passes blur small ones only.
-// Source: Dammertz, Sewtz, Hanika, Lensch, "Edge-avoiding a-trous wavelet transform for fast global
-// illumination filtering" (2010).
+// Averages the light over nearby pixels that may share it. Pixels without sampled light get that of their
+// neighbors; if these have none either, `known` stays 0. Averages do not cross edges of surfaces. Three
+// passes, with steps of 1, 2 and 4 pixels, act like a Gaussian with a standard deviation of 4.6 pixels: they
+// blur finer variation, and reduce noise to a sixteenth. Of the remaining differences, small ones are mostly
+// noise and large ones shadows; careful passes blur only small ones. Source: Dammertz, Sewtz, Hanika, Lensch,
+// "Edge-avoiding a-trous wavelet transform for fast global illumination filtering" (2010).
 void smoothLight(const SeenSurfaces& seen, const Smoothing& smoothing, PixelLight& light);
 
 }  // namespace rsphere

@@ -24,7 +24,7 @@ struct Irregularity {
   static double lobe(const WgmdFunction::Lobe& m) {
     return lobe(std::min(m.share, 1.), m.roughnessAlong, m.roughnessAcross);
   }
-  // The roughness with which a Gaussian of slopes and a power of cosines have the same curvature at the peak.
+  // The roughness of a Gaussian in slope with the same curvature at its peak as a power of the cosine.
   static double roughnessOf(double power) { return std::sqrt(2 / (power + 1)); }
   double operator()(const Opaque& m) const { return lobe(m.specularity, m.roughness); }
   double operator()(const Trans& m) const {
@@ -61,14 +61,15 @@ struct Irregularity {
   double operator()(const Spotlight&) const { return 0; }
 };
 
-// The most irregular material that a surface may show, including the alternatives of mixtures.
+// The most irregular material of a surface, including the alternatives of mixtures.
 struct Shown {
   const Modifier* modifier = nullptr;
   double irregularity = 0;
 };
 Shown mostIrregular(const Scene& scene, ModifierId modifier);
 
-// What a viewer sees of an illum: its alternate material, or what is behind it, as of a pane.
+// The visible material of an illum: its alternate material; if there is none, the illum shows what is behind
+// it, like a pane.
 Shown seenOf(const Scene& scene, const Modifier& illum, const Alternate& alternate) {
   if (alternate.kind == Alternate::Kind::modifier) return mostIrregular(scene, alternate.modifier);
   return {&illum, kPane};
@@ -145,7 +146,7 @@ class Finder {
   }
 
  private:
-  // Summary of the special surfaces in an instance or a mesh that has no modifier of its own.
+  // Summary of the special surfaces in an instance or mesh without a modifier.
   struct Contents {
     size_t objects = 0;
     SurfaceId mostIrregular;
@@ -209,8 +210,8 @@ class Finder {
   Sphere ballOf(const Instance& instance) { return balls_.ofGroup(instance.group); }
   Sphere ballOf(const MeshInstance& mesh) { return balls_.ofMesh(mesh.mesh); }
 
-  // Adds the surface, or the surfaces that it contains, as far as they are special, each as an object. at:
-  // the placement of the group that the surface belongs to; null: the world.
+  // Adds the surface, or the surfaces that it contains, if they are special; each becomes one object. at: the
+  // placement of the group that the surface belongs to; null: world coordinates.
   void add(SurfaceId index, const Placement* at) {
     const Surface& s = scene_.surfaces[index];
     match(

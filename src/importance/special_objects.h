@@ -1,5 +1,5 @@
 #pragma once
-// The special objects, those that get directions of their own, and how many.
+// The special objects, which get extra directions, and the density of these directions.
 #include <optional>
 #include <span>
 #include <string>
@@ -13,46 +13,47 @@
 
 namespace rsphere {
 
-// How irregularly a material scatters light, 0 to 1:
+// The irregularity of a material, 0 to 1: how much the light that it scatters varies with direction.
 // - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
-//   prisms; aBSDF, whose data are meant to have a peak in the straight direction.
-// - kPane for glass, and for an illum that shows what is behind it; other illums have the irregularity of
+//   prisms; aBSDF, whose data are meant to have a peak straight through.
+// - kPane for glass, and for an illum that shows what is behind it. Other illums have the irregularity of
 //   their alternate material.
 // - For other materials the fraction of light that is reflected or transmitted specularly, divided by 1 + (a
-//   / kSharpRoughness)^2 for the roughness a (rms slope of facets), like the height of the peak. With two
-//   roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. The powers n
-//   of ashik2 are converted to roughnesses sqrt(2 / (n + 1)), with which its lobe has the same peak.
-// - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The
-//   width of directional scattering of plasfunc, its relatives and BRTDfunc is not known;
-//   kSharpRoughness is assumed.
+//   / kSharpRoughness)^2 for the roughness a (rms slope of facets), in analogy to the height of the peak.
+//   With two roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. A
+//   power n of ashik2 is converted to the roughness sqrt(2 / (n + 1)), with which the lobe has the same peak.
+// - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The width
+//   of directional scattering of plasfunc, its relatives and BRTDfunc is unknown; kSharpRoughness is assumed.
 // - 0 for diffuse materials, BSDF and light sources.
 double irregularity(const Material& material);
 
-// The constants of special objects. The paper states neither densities nor the threshold of its criterion,
-// only the resulting numbers of directions: 2048 and 1030 +- 176 more, 2200 to 3500 in all, with 1 to 100
-// small spheres in a furnished open-plan office. The following values are fitted so that examples/openplan
-// has 2200 to 3500 directions too, at each of its points (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper;
-// the distribution is in tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of
-// directions of -Sw v, and choose the special objects of both -Sw v and -Sw c. The last sentence of each
-// comment is from tests/bench/sensitivity/runs/2026-11-22.txt.
+// The constants of special objects. The paper gives neither the densities nor the threshold of its criterion,
+// only the resulting numbers of directions with 1 to 100 small spheres in a furnished open-plan office: 2048
+// and 1030 +- 176 more, 2200 to 3500 in all. The values below were fitted so that every point of
+// examples/openplan also has 2200 to 3500 directions (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper;
+// distribution: tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of directions of
+// -Sw v, and choose the special objects of both -Sw v and -Sw c. The effects of changes, in the last
+// sentences, are from tests/bench/sensitivity/runs/2026-11-22.txt; "noise" is the standard error of the
+// measured effect.
 //
-// Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. 30% less:
-// time -17%; 30% more: time +15% (Voronoi cells; noise: error 8%, time 4%).
+// Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. Reducing
+// it by 30% changes the time by -17%, raising it by 30% by +15% (Voronoi cells; noise: error 8%, time 4%).
 RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
-// Roughness a (rms slope) of a highlight that is half as irregular as a mirror: derived. The highlight fills
-// 4 pi a^2 sr, so that about 16 directions, four across, meet it. 30% more: time +23% (Voronoi cells; noise:
-// error 5%, time 4%). Balls that are rougher show no images of light sources (glints.h).
+// Roughness a (rms slope) at which a highlight is half as irregular as a mirror: derived. The highlight fills
+// 4 pi a^2 sr, so that about 16 directions, four across, hit it. Raising it by 30% changes the time by +23%
+// (Voronoi cells; noise: error 5%, time 4%). Rougher balls show no images of light sources (glints.h).
 inline constexpr double kSharpRoughness = .0065;
-// Irregularity of glass panes. Objects behind a pane look as large as without it, and its mirror image is
-// faint. A pane gets 64 directions per sr, a few hundred at most; with the irregularity of a mirror, it would
-// take all directions. 30% less or more: within noise (Voronoi cells; error 1%, time 5%).
+// Irregularity of glass panes. It is low because objects behind a pane look as large as without it, and its
+// reflections are faint. A pane gets 64 directions per sr, a few hundred at most; with the irregularity of a
+// mirror it would take all directions. Changing it by 30% has no effect beyond noise (Voronoi cells; noise:
+// error 1%, time 5%).
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
-// Less irregular objects are treated as diffuse: derived. Their 16 directions per sr are a tenth of those of
-// the default base set.
+// Less irregular objects are treated as diffuse: derived. At this threshold they would get 16 directions per
+// sr, a tenth of the density of the default base directions.
 inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
 
-// Up to this number it takes less time to look at special objects than to find out that they are hidden
-// (HiddenBoxes). By measurement.
+// Up to this number of special objects, looking at each of them takes less time than finding out which are
+// hidden (HiddenBoxes). Measured.
 inline constexpr size_t kFewHidden = 1024;
 
 struct SpecialObject {
@@ -63,17 +64,17 @@ struct SpecialObject {
   bool several = false;                 // whether `placed` is a ball around several surfaces
 };
 
-// With more special objects in octrees and meshes than this, each outermost instance is one object. This
-// limits the time, because the silhouettes of all objects are computed at every point. It is also the cap on
-// the pairs of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors are
-// kept. Chosen by experiment. 30% less or more: the same answers in all cases.
+// If octrees and meshes contain more special objects than this, each outermost instance becomes one object.
+// This limits the time, because the silhouettes of all objects are computed at every point. It is also the
+// cap on pairs of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors
+// are kept. Chosen by experiment. Changing it by 30% changes no answer of any case.
 RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
-// All surfaces, except distant sources, whose material or one of whose alternatives in mixtures has at least
-// kSpecialIrregularity; in the order of the scene. Surfaces in octrees are objects with shapes in world
-// coordinates. Surfaces in meshes are represented by a ball for each material of the mesh, and instances
-// whose own modifier is special by one ball. With more than kMostPlacedObjects, each outermost instance that
-// contains any is represented by one ball, with the irregularity of the most irregular one. factor: -Sk.
+// All surfaces with a material of at least kSpecialIrregularity, including alternatives in mixtures; in the
+// order of the scene, without distant sources. Surfaces in octrees are converted to world coordinates.
+// Surfaces in meshes are represented by one ball for each material of the mesh, and instances with a special
+// modifier by one ball. If there are more than kMostPlacedObjects, each outermost instance that contains
+// special surfaces is represented by one ball, with their largest irregularity. factor: -Sk.
 std::vector<SpecialObject> findSpecialObjects(const Scene& scene, double factor);
 
 // The shape of the object, or the ball around it (world).
@@ -82,7 +83,7 @@ ShapeRef shapeOf(const Scene& scene, const SpecialObject& object);
 // The vertices that the shape refers to if it is a polygon (world).
 std::span<const V3d> verticesOf(const Scene& scene, const SpecialObject& object);
 
-// Whether a hit on the surface (index in Scene::surfaces, or kNone) is a hit on the object.
+// Whether a ray that hits the surface (index in Scene::surfaces, or kNone) hits the object.
 bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface);
 
 // The object as seen from a point (world).
@@ -91,7 +92,8 @@ Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V
 // A point on the object, or on the ball around it (world).
 SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random);
 
-// One line for each object, for -Sl: place, surface, type and name of its material, density, and the reason.
+// The text of -Sl, one line for each object: place, surface, type and name of its material, density, and
+// reason.
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects);
 
 }  // namespace rsphere

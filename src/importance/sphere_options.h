@@ -15,26 +15,27 @@ enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes
 
 // The options of the estimator of sphere mode.
 struct SphereOptions {
-  int baseDirections = 2048;               // -Sn  1 to 1,000,000
-  int mostDirections = 4096;               // -Sx  of one set
-  int mostForAccuracy = 0;                 // total of the sets that -Sa averages, if it is larger than -Sx
-  double densityFactor = 1;                // -Sk
-  double accuracy = 0;                     // -Sa  0: off
-  double clamp = 0;                        // -Sf  largest share of one direction; 0: off
-  Weights weights = Weights::silhouettes;  // -Sw
-  bool basicRadiance = false;              // -Sb
-  bool everyDirection = false;             // -Sd
-  uint64_t rotation = 0;                   // -Sr
-  int zones = 0;                           // -Sz  of equal solid angle, or bins; 0: none
-  std::string zoneOf, zoneCount;           // -Szb -Szn  expressions of bins; empty: not given
-  std::shared_ptr<const DirectionBins> bins{};  // of these; their count is `zones`
-  bool verify = false;                     // -Sv
-  GlareOptions glare;                      // -Su -Sub -Sut
+  int baseDirections = 2048;                    // -Sn  1 to 1,000,000
+  int mostDirections = 4096;                    // -Sx  of one set
+  int mostForAccuracy = 0;                      // limit for all sets of -Sa, if it is larger than -Sx
+  double densityFactor = 1;                     // -Sk
+  double accuracy = 0;                          // -Sa  0: off
+  double clamp = 0;                             // largest share of one direction in the mean; 0: off
+  Weights weights = Weights::silhouettes;       // -Sw
+  bool basicRadiance = false;                   // -Sb
+  bool everyDirection = false;                  // -Sd
+  uint64_t rotation = 0;                        // -Sr
+  int zones = 0;                                // number of zones or bins; 0: none
+  std::string zoneOf, zoneCount;                // expressions for bins; empty: not given
+  std::shared_ptr<const DirectionBins> bins{};  // from these expressions; their number is `zones`
+  bool verify = false;                          // -Sv
+  GlareOptions glare;                           // -Su -Sub -Sut
 
-  // The rays of patches of the coarse solution, as RayOptions::leastForPatches. Their number grows with that
-  // of the directions and with the accuracy, so that the error that all points share falls with the error of
-  // directions. By measurement: in four daylit rooms (-aa .1, -Sn 512 to 4096) answers have .8 to 1.3 times
-  // the error that they state, and the error of directions alone falls with the power .75 of their number.
+  // The rays of each patch of the coarse solution (RayOptions::leastForPatches). Their number grows with the
+  // number of directions and with the accuracy, so that the error common to all points falls with the error
+  // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): the actual errors of answers are
+  // .8 to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their
+  // number.
   int raysForPatches() const {
     constexpr double kUsual = 1024, kUsualDirections = 2048, kUsualAccuracy = .01, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;
@@ -43,7 +44,7 @@ struct SphereOptions {
         std::clamp(kUsual * std::max({part, std::pow(part, 1.5), finer * finer}), 1., kMost));
   }
 
-  // Largest number of directions of one point, over all sets that -Sa averages.
+  // Cap on the directions at one point, over all sets of -Sa.
   int mostOfAllSets() const { return std::max(mostDirections, mostForAccuracy); }
 };
 

@@ -5,13 +5,14 @@
 
 namespace rsphere {
 
-// The objects that the tracers of sphere mode refer to. Shared by all threads; keeps references.
+// Objects used by the tracers of sphere mode. Shared by all threads; keeps references.
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims{};                                       // of indirect rays
+  Aims aims{};                                       // targets of indirect rays
   std::shared_ptr<const VertexLight> vertexLight{};  // PathRequest::vertexLight; null: none
-  FoundAims ofPoints{};                              // owns those of `aims` that were found for points alone
+  FoundAims ofPoints{};                              // owns the members of `aims` that were found for points
+                                                     // only
 
   // Each thread needs its own.
   PathTracer tracer() const {

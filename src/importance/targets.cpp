@@ -16,10 +16,10 @@ using Tuning = tuning::Targets;
 
 constexpr double kFullSphere = 4 * std::numbers::pi;  // sr
 
-// Boxes that are thinner than this share of their diagonal are flat but for rounding.
+// Boxes thinner than this share of their diagonal are flat; the rest is rounding.
 constexpr double kFlat = 1e-6;
 
-// The corners of a box, each once: boxes around flat surfaces are flat.
+// The corners of a box, without duplicates: the box around a flat surface is flat.
 std::vector<V3d> cornersOf(const Box3d& box) {
   std::vector<V3d> corners{box.min};
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,7 +33,7 @@ std::vector<V3d> cornersOf(const Box3d& box) {
 }
 
 static_assert(kShapes == 8, "May a new shape be the pane of an opening?");
-// Whether the object is a polygon that lies in the rectangle, but for rounding.
+// Whether the object is a polygon inside the rectangle, within rounding.
 bool liesIn(const Scene& scene, const SpecialObject& object, const Rectangle& place) {
   const auto* polygon = shapeOf(scene, object).as<Polygon>();
   if (!polygon) return false;
@@ -52,15 +52,15 @@ bool overlap(const Silhouette& a, const Silhouette& b) {
   if (capA.angle + capB.angle < std::numbers::pi &&
       capA.axis.dot(capB.axis) < std::cos(capA.angle + capB.angle))
     return false;
-  // Panes side by side share an edge. If the regions are not both polygons, within() returns the smaller one.
+  // Adjacent panes share an edge. If one of the regions is not a polygon, within() returns the smaller one.
   constexpr double kEdge = 1e-6;
   return a.within(b).regionSolidAngle() > kEdge * std::min(a.regionSolidAngle(), b.regionSolidAngle());
 }
 
-// Chooses targets that do not overlap, those with most directions first, among those in which enough
-// directions are expected. The number that was found must not decide, because that would bias the mean.
-// Overlapping targets cannot all be fitted: few directions may lie in the part that belongs to one of them
-// alone, and cells in the common part would have to make up for both.
+// Chooses the targets to which cells are fitted: they do not overlap, and enough directions are expected in
+// each. Those with most directions are chosen first. The actual number of directions must not decide, because
+// that would bias the mean. Overlapping targets cannot all be fitted: if few directions lie in the part
+// outside the overlap, the cells in the overlap would have to make up for both targets.
 void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   std::vector<Target*> chosen, large;
   const auto expected = [&](const Target& target) {
@@ -140,7 +140,7 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   const double usual = contrasts_.baseError * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
-  // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: it is no opening.
+  // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: not an opening.
   const auto add = [&](Silhouette silhouette, double deviation, bool continues, double opening = 0) {
     const double solidAngle = silhouette.regionSolidAngle();
     if (!(solidAngle > 0)) return;

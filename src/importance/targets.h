@@ -1,5 +1,5 @@
 #pragma once
-// Chooses regions of the sphere that get extra directions at a point, and the number of these directions.
+// Chooses the regions of the sphere that get extra directions at a point, and how many.
 #include <span>
 #include <vector>
 
@@ -12,16 +12,16 @@
 
 namespace rsphere {
 
-// A special object, or the image of a light source in one, that gets directions of its own.
+// A region that gets extra directions, such as a special object or the image of a light source in one.
 struct Target {
   Silhouette silhouette;
-  double density = 0;      // of the directions aimed at it, per sr of its region
-  double expected = 0;     // expected number of those directions
+  double density = 0;      // extra directions per sr of its region
+  double expected = 0;     // expected number of extra directions
   bool continues = false;  // part of the same image as the target before it
-  // Whether cells are fitted to its solid angle (cells_in_targets.h). No two of these targets overlap.
+  // Whether cells are fitted to its solid angle (cells_in_targets.h). Fitted targets do not overlap.
   bool fitted = false;
-  // Whether cells keep to its edge, so that the edge adds no variance: it is fitted, or has more directions
-  // of its own than base directions.
+  // Whether cells end at its edge, so that the edge adds no variance. This is so if the target is fitted, or
+  // gets more extra directions than base directions.
   bool hasOwnEdge = false;
 };
 
@@ -34,9 +34,9 @@ class Targets {
 
   // The targets that contain a direction (unit).
   struct Region {
-    double density = 0;   // of their own directions there, per sr
-    RegionId id = 0;      // identifies the set of targets with an edge of their own; 0: in none of these
-    uint32_t fitted = 0;  // 1 + the position in all() of the one that is fitted; 0: none is
+    double density = 0;   // of their extra directions there, per sr
+    RegionId id = 0;      // identifies the combination of targets with hasOwnEdge; 0: none of these
+    uint32_t fitted = 0;  // 1 + the position in all() of the fitted target; 0: none is fitted
   };
   Region regionAt(const V3d& direction) const;
 
@@ -55,19 +55,19 @@ class TargetChoice {
                const SeenSources& sources, double densityFactor);
 
   // The targets at a point (world): special objects, images of light sources in them, openings that show
-  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). Extra
-  // directions raise the density on each target to Neyman's allocation, in proportion to the standard
-  // deviation of the radiance on it. The density of base directions is assumed to be optimal elsewhere. If
-  // that needs more than `most` directions on average, all densities are reduced by the same factor, so that
-  // no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
+  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). The density on
+  // a target is in proportion to the standard deviation of its radiance (Neyman's allocation), relative to
+  // the base directions, whose density is assumed to be optimal elsewhere. If that takes more than `most`
+  // extra directions on average, all densities are reduced by the same factor, so that no target is dropped.
+  // meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
   const PreparedScene& prepared_;
   std::span<const BrightSpots::Sunlit> sunlit_;
   std::vector<Openings::View> openings_;  // openings without special objects in them
-  // For each of contrasts_.objects: the mean radiance of the opening that it lies in, as seen from the dark
-  // side, W/sr/m2; 0 if it lies in none.
+  // By index in contrasts_.objects: the mean radiance (W/sr/m2) of the opening that contains the object, as
+  // seen from the dark side; 0 if no opening contains it.
   std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;

@@ -1,15 +1,16 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. Those of special objects, which the paper
-// asks for but does not give, are in special_objects.h.
+// The tuning constants of this folder (base/tuned.h), by subsystem. Those of special objects, for which the
+// paper gives no values, are in special_objects.h.
 //
-// None of them changes the mean of an estimate over rotations (-Sr), except those of Stopping, slightly. They
-// change its variance and its time, its own estimate of the variance (ErrorEstimate), and pictures (-Si).
+// Changing them does not change the mean of an estimate over rotations (-Sr), except slightly for those of
+// Stopping. It changes the variance and the time, the estimated variance (ErrorEstimate), and pictures (-Si).
 //
-// Each comment gives the meaning and the unit, then after the colon where the value comes from. "Chosen by
-// experiment" means that it was the best of some values that were tried on scenes like those of
-// tests/bench/importance, and that the results for the others were not kept. The last sentence gives the
-// effect of smaller and larger values on error and time, in the case of tests/bench/sensitivity where it is
-// largest (2026-11-24.txt in its folder runs, and 2026-11-22.txt for what has not changed since).
+// Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
+// best of some values that were tried on scenes like those of tests/bench/importance; the results of the
+// others were not kept. The effect of changing a constant by 30% is from tests/bench/sensitivity
+// (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again). The case in parentheses is the one
+// in which answers change most; "noise" is the standard error of the measured effect. "Changes no answer"
+// holds for all cases.
 #include <array>
 #include <cstddef>
 
@@ -17,269 +18,271 @@
 
 namespace rsphere::tuning {
 
-// How much radiance varies on special objects and around them (contrasts.cpp). Measured once per scene.
+// The contrast of special objects with their surroundings (contrasts.cpp), measured once per scene.
 struct Contrasts {
   // Rays to the special objects of one modifier; twice as many paths sample the typical view. Chosen by
-  // experiment. For normally distributed values the standard deviation is then known within 9%, 1/sqrt(2 x
-  // 63). All modifiers together get Caps::kAsked rays, but at least 2 each, to limit the time at start: rays
-  // for each object instead of each modifier took 1.1 s instead of .05 s. 30% less or more: within noise
-  // (points in office; error 7%, time 6%).
+  // experiment. For normally distributed values, the standard deviation is then known within 9%, 1/sqrt(2 x
+  // 63). To limit the time at start, all modifiers together get Caps::kAsked rays, but each at least 2: with
+  // separate rays for each object, the start took 1.1 s instead of .05 s. Changing it by 30% has no effect
+  // beyond noise (points in office; noise: error 7%, time 6%).
   RSPHERE_TUNED(Contrasts, size_t, kRays, 64);
 };
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
-  // Glances per base direction: by measurement. A glance takes .15 to .5 us, a direction 1 to 100. Twice as
-  // many, with twice as many shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside
-  // a goal and from .41% to .40% in the open-plan office, in up to a fifth more time. 30% less or more:
-  // within noise (points in office; error 27%, time 6%).
+  // Glances per base direction: measured. A glance takes .15 to .5 us, a direction 1 to 100. Doubling it, and
+  // the shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside a goal and from .41%
+  // to .40% in the open-plan office, in up to a fifth more time. Changing it by 30% has no effect beyond
+  // noise (points in office; noise: error 27%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kGlancesPerDirection, 4);
-  // Base directions for each direction to images of light sources, which are at least
-  // SeenSources::kUsualRays: chosen by experiment. 30% less or more: within noise (points in office; error
-  // 8%, time 6%).
+  // Base directions for each direction to images of light sources; the latter are at least
+  // SeenSources::kUsualRays. Chosen by experiment. Changing it by 30% has no effect beyond noise (points in
+  // office; noise: error 8%, time 6%).
   RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
 };
 
-// Glances and joins with light vertices (diffuse_glances.h).
+// Glances, and joins with light vertices (diffuse_glances.h). Errors are those around the goal.
 struct DiffuseGlances {
-  // Glances for each base direction. They take most of the time of a point. The error falls with the square
-  // root of their number.
+  // Glances for each base direction. They take most of the time of a point. The error is inversely
+  // proportional to the square root of their number.
   RSPHERE_TUNED(DiffuseGlances, size_t, kPerDirection, 12);
-  // Cap on the glances at one point, about 100 MB; they are never fewer than the base directions. Also the
-  // cap on the light paths of all pools together, about 400 MB.
+  // Cap on the glances at one point (about 100 MB), if there are fewer base directions. Also the cap on the
+  // light paths of all pools together (about 400 MB).
   RSPHERE_TUNED(DiffuseGlances, size_t, kMost, 1 << 20);
-  // Joins for each base direction. 4: error +5% around the goal at a fiftieth less time; 16: within noise.
+  // Joins for each base direction. With 4, the error is 5% larger and the time 2% shorter. With 16, no effect
+  // beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 8);
-  // Radius, as a fraction of the mean length of light paths, within which a smaller distance hardly increases
-  // the number of joins. .1 or .3: within noise.
+  // Distances below this fraction of the mean length of light paths hardly increase the number of joins. With
+  // .1 or .3, no effect beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
-  // Light paths for each base direction. They are traced once for all points. Around the goal, 256: error
-  // -10%, and a start of .4 s instead of .1 s.
+  // Light paths for each base direction, traced once for all points. With 256, the error is 10% smaller, and
+  // the start takes .4 s instead of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
-  // With -Sa, this number of light paths suffices down to this accuracy. Below it, the number grows with the
+  // Accuracy (-Sa) down to which this number of light paths suffices. Below, their number grows with the
   // inverse square of the accuracy.
   RSPHERE_TUNED(DiffuseGlances, double, kUsualAccuracy, .005);
-  // Assumed mean radiance of the light that glances do not find, as a fraction of the mean radiance that they
-  // find. The variance of targets is compared with it. 1 and .3: single answers are 6% off around the goal,
-  // where brushed steel shows it; .03: within noise, in 1.15 times the time.
+  // Assumed mean radiance of light that glances miss, as a fraction of that which they find. It is the
+  // reference for the variance of targets. With .3 or 1, single answers are off by 6% where brushed steel
+  // reflects the goal. With .03, the time is 1.15 times as long, without an effect on the error beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kLeft, .1);
 };
 
 // The regions that get extra directions (targets.cpp).
 struct Targets {
-  // An image of a light source in a ball gets directions of its own if without them it would add more than
-  // this share of the variance of all base directions: chosen by experiment. 30% less or more: within noise
-  // (points in office; error below 1%, time 7%).
+  // An image of a light source in a ball becomes a target if it would otherwise add more than this fraction
+  // of the variance of all base directions: chosen by experiment. Changing it by 30% has no effect beyond
+  // noise (points in office; noise: error below 1%, time 7%).
   RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
   // Standard deviation of the brightness within a partly lit region, relative to the brightness of its lit
-  // part: derived. .5 is the largest possible for values between 0 and 1: half of the region is lit. It is
-  // confirmed by measurement for the three kinds of regions:
-  // - Images of light sources in balls. 30% less: error +12%; 30% more: error -20% (points beside chrome;
-  //   noise: error 5%).
-  // - Openings that show daylight. In a room with a window that shows a house below an uneven sky, the errors
-  //   of 512 directions with values of 0, .1, .25 and .5 are 3.8, 2.9, 2.7 and 2.5% (two bounces) and 51,
-  //   5.9, 3.8 and 2.3% (none), in the same time within noise; without targets at openings 6.9 and 76%.
-  // - Spots of daylight. With them, the default directions in two sunlit rooms have errors of 1.5 and 1.8%
-  //   instead of 2.75 and 1.9%. .25 or 1: within noise.
+  // part: derived. .5 is the largest possible value, and holds if half of the region is lit. Measurements for
+  // the three kinds of regions confirm it:
+  // - Images of light sources in balls. Reducing it by 30% changes the error by +12%, raising it by 30% by
+  //   -20% (points beside chrome; noise: error 5%).
+  // - Openings that show daylight, in a room with a window onto a house below an uneven sky. Errors of 512
+  //   directions; the times are equal within noise:
+  //   value                            no targets   0      .1     .25    .5
+  //   error with two bounces           6.9%         3.8%   2.9%   2.7%   2.5%
+  //   error with none                  76%          51%    5.9%   3.8%   2.3%
+  // - Spots of daylight. With the default number of directions, the errors in two sunlit rooms are 1.5 and
+  //   1.8% with such targets, 2.75 and 1.9% without. With .25 or 1, no effect beyond noise.
   static constexpr double kPartlyLit = .5;
-  // An opening that, unoccluded, would give more than this fraction of the light at a point gets at least
-  // Caps::kProbes directions: chosen by experiment. At .1, a far window that happens to be dark in the rays
-  // around a point causes errors of up to 10% instead of 5%. With 8 directions, an opening of which an eighth
-  // is hidden often looks unobstructed.
+  // An opening gets at least Caps::kProbes directions if it would, unoccluded, give more than this fraction
+  // of the light at a point: chosen by experiment. With .1, a far window that happens to be dark in the rays
+  // around a point causes errors of up to 10% instead of 5%. With only 8 directions, an opening with an
+  // eighth hidden often looks unobstructed.
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
-  // The cells in a target are fitted to its solid angle if at least this many directions are expected in it:
-  // chosen by experiment. With 4 or 16 the errors in rooms with a window are the same. With fewer, the fit
-  // would bias the mean where the number of directions is correlated with what they see. With 8 no bias is
-  // found: .02 +- .02% (128 base directions).
+  // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:
+  // chosen by experiment. Fitting biases the mean if the number of directions is correlated with the radiance
+  // that they find. With 8 no bias is found: .02 +- .02% (128 base directions). With 4 or 16, the errors in
+  // rooms with a window are the same.
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
 };
 
 // The cells of directions in targets (cells_in_targets.cpp).
 struct CellsInTargets {
-  // If the cells outside targets would have to change by more than this share, all cells are scaled: chosen
-  // without measurement. It matters only where targets fill nearly all of the sphere.
+  // Largest relative change of the cells outside targets. If they would have to change more, all cells are
+  // scaled. Chosen without measurement: it matters only where targets fill nearly the whole sphere.
   RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
 };
 
 // Images of light sources in mirroring balls (glints.cpp).
 struct Glints {
-  // A source is divided so that half the width of a part is at most this, relative to its distance from the
-  // ball, because the image of a wider part is noticeably curved: chosen by experiment. There are at most
-  // Silhouettes::kCorners parts along each side. .25 (Highlights::kHalf): within noise (points beside chrome;
-  // error 1%, time 1%).
+  // Largest half width of a part of a source, relative to its distance from the ball. Wider sources are
+  // divided, into at most Silhouettes::kCorners parts along each side, because the image of a wide part is
+  // noticeably curved. Chosen by experiment. With .25 (Highlights::kHalf), no effect beyond noise (points
+  // beside chrome; noise: error 1%, time 1%).
   RSPHERE_TUNED(Glints, double, kHalfPart, .12);
 };
 
 // Light sources that are integrated separately (seen_sources.cpp).
 struct SeenSources {
   // Cap on the rays to one image: the largest of kUsualRays; one ray for each square of side kSmallestPart
-  // (rad) in the image; and kSmallShare times an even share of all rays to images. Chosen by experiment. 30%
-  // less or more: within noise (points by sun; error below 1%, time 4%).
+  // (rad) in the image; and kSmallShare times an even share of all rays to images. Chosen by experiment.
+  // Changing it by 30% has no effect beyond noise (points by sun; noise: error below 1%, time 4%).
   RSPHERE_TUNED(SeenSources, double, kUsualRays, 16);
-  // The side of those squares (rad). Wide sources need them: without them, the error below a luminous ceiling
-  // that 36 balls hide partly is 2.9% instead of .5% (2048 base directions). 30% less or more: the same
-  // answers in all cases.
+  // Side of the squares in this cap (rad). Without them, the error below a luminous ceiling partly hidden by
+  // 36 balls is 2.9% instead of .5% (2048 base directions). Changing it by 30% changes no answer.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The fraction of an even share in this cap. Without it, the error of a small lamp that is half hidden
-  // would stay at 4.2% with any number of base directions. With it, the error falls from 4.2% with 256 to
-  // .33% with 16384.
+  // The fraction of an even share in this cap. With it, the error for a small half-hidden lamp falls from
+  // 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
   //
-  // Also, images in mirrors that would get fewer rays than this, on average, are left to the base directions:
-  // chosen by experiment. A tenth of a ray means a ray at one of ten points, with ten times the weight. 30%
-  // less or more: within noise (points in workshop; error 17%, time 7%).
+  // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
+  // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Changing it by 30%
+  // has no effect beyond noise (points in workshop; noise: error 17%, time 7%).
   RSPHERE_TUNED(SeenSources, double, kSmallShare, .1);
-  // The number of rays to an image is proportional to its light to this power: derived. Of n parts of a
-  // half-hidden image, only those on the shadow's edge are uncertain, so that the error is proportional to L
-  // n^-3/4 for light L. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
+  // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
+  // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
+  // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
   // proportional to L^(4/5).
   static constexpr double kByLight = 4. / 5;
-  // Directions, without rays, that measure the fraction of a region that its source fills: derived. An edge
-  // divides about n^1/2 of n even cells, whose errors, of .3 each, add up to .3 n^-3/4 of the region: .2%.
+  // Number of directions that measure, without tracing rays, how much of a region its source fills: derived.
+  // An edge divides about n^1/2 of n even cells. Their errors, of .3 each, add up to .3 n^-3/4 of the region:
+  // .2%.
   static constexpr size_t kShareTries = 1024;
-  // Shadow rays along each side of a direction's cell on a source that is seen directly: by measurement. At
-  // points where the goal shows behind the edge of a partition, 2: error 3% instead of 1.8%, in the same
-  // time; 8: within noise.
+  // Shadow rays along each side of a direction's cell on a directly visible source: measured at points where
+  // a partition hides part of the goal. With 2, the error is 3% instead of 1.8%, in the same time. With 8, no
+  // effect beyond noise.
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
 };
 
 // The regions that replace silhouettes (silhouette.cpp, silhouette_index.cpp).
 struct Silhouettes {
   // Largest half angle (rad) of an object, as seen from the point, for which a hull is computed instead of a
-  // cap: derived. Hulls are computed on a plane, which cannot hold a hemisphere (1.57). At this angle, the
-  // projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. 1.2: error
-  // +30% beside chrome, in the same time.
+  // cap: derived. Hulls are computed on a plane, which cannot represent a hemisphere (1.57). At this angle,
+  // the projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. With
+  // 1.2, the error beside chrome is 30% larger, in the same time.
   static constexpr double kWidestHull = 1.5;
-  // Corners of the polygon around a circle: chosen by experiment. The polygon's area is 1.3% larger. To find
-  // images on balls, light sources with more corners than this are replaced by squares around them. With 30%
-  // less or more, points beside chrome change by no more than the noise (error below 1%, time 8%).
+  // Corners of the polygon around a circle: chosen by experiment. The polygon's area is 1.3% larger than the
+  // circle's. When searching for images on balls, light sources with more corners are replaced by squares
+  // around them. Changing it by 30% has no effect beyond noise (points beside chrome; noise: error below 1%,
+  // time 8%).
   RSPHERE_TUNED(Silhouettes, int, kCorners, 16);
-  // Cells along the edge of a face of the cube map that names the silhouettes near a direction: chosen by
-  // experiment. Without cells, the search among 180 special objects took 18% of the time. The number changes
-  // the time only, and tests/bench/sensitivity does not vary it, because it is the size of a table.
+  // Cells along each edge of a face of the cube that lists the silhouettes near a direction: chosen by
+  // experiment. Without cells, the search among 180 special objects took 18% of the time. The number only
+  // affects the time. tests/bench/sensitivity does not vary it, because it is the size of a table.
   static constexpr int kSide = 6;
 };
 
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
-  // Relative standard error of the mean that is due to the coarse solution (-aa above 0), assumed independent
-  // of the error of the directions. Its patches cause kPatches. Its rays cause as much again if gathers have
-  // kUsualRays rays, and otherwise in inverse proportion to the square root of their number. By measurement:
-  // in a white room with a lamp, with and without a desk, means have errors of .13% with 256 rays and .06 to
-  // .07% with 8192. In daylit rooms means are .1 to .2% too dark, beside stated errors of .6 to 1%.
+  // Relative standard error of the mean due to the coarse solution (-aa above 0), assumed independent of the
+  // error of the directions. Its patches cause kPatches. Its rays cause as much again if gathers have
+  // kUsualRays rays; this part is inversely proportional to the square root of their number. Measured in a
+  // white room with a lamp, with and without a desk: the errors of means are .13% with 256 rays and .06 to
+  // .07% with 8192. In daylit rooms means are .1 to .2% too dark, with stated errors of .6 to 1%.
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0006);
   static constexpr double kUsualRays = 1024;
-  // Factor on the variance that is estimated from second differences of base directions: a compromise. It
-  // should be .6 if all of the variance comes from straight edges, because an even set averages out a part of
-  // it, and 1 if all comes from the noise of paths.
+  // Factor on the variance that is estimated from second differences of base directions: a compromise. The
+  // right value is .6 if all variance is due to straight edges, because evenly spread directions average out
+  // part of it, and 1 if all is due to the noise of paths.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenSet, .8);
-  // The smallest number of neighbours with which second differences are used: derived. With fewer,
-  // ownPartOfSecond() does not hold for their variance.
+  // Smallest number of neighbours for second differences: derived. ownPartOfSecond() does not hold for fewer.
   static constexpr double kFewestAround = 4;
-  // The same factor for directions to the parts of a light source: chosen by experiment. Differences of
-  // successive parts overestimate the effect of an edge, because it lies between two parts more often than it
-  // crosses one. Where the light of a source causes all of the variance, the standard error is then too small
+  // Factor like kEvenSet for directions to the parts of a light source: chosen by experiment. Differences
+  // between successive parts overestimate the effect of an edge, because it lies between two parts more often
+  // than it crosses one. Where all variance is due to the light of one source, the stated error is too small
   // (40 rotations each):
-  //   predicted / actual deviation              .5 (this)    1
+  //   stated / actual standard deviation        .5 (used)    1
   //   luminous ceiling behind 36 balls          .67 to .88   .94 to 1.24
   //   lamp of .1 m, half hidden                 .69          .98
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
-  // 30% less or more: the same answers in all cases.
+  // Changing it by 30% changes no answer.
   //
-  // It is also the factor for glances, whose guesses have edges but no noise of paths. Without bounces, in
-  // the open-plan office, the actual deviation is then 1.07 times the predicted standard error.
+  // It is also the factor for glances, whose guesses have edges but no noise of paths. In the open-plan
+  // office without bounces, the actual standard deviation is then 1.07 times the stated one.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
   // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number
-  // of directions that cause the variance, not all directions of the target. With all of them, at a point
-  // beside a chrome ball where 1 to 5 of 3400 find lamps that are mirrored twice, the actual deviation was
-  // 1.6 times the predicted standard error, and 2% of the answers were off by more than six standard errors;
-  // now the ratio is .9, and no answer is. 30% less or more: the same answers in all cases.
+  // of directions that cause the variance. With the number of all directions, errors were understated beside
+  // a chrome ball, where 1 to 5 of 3400 directions find twice mirrored lamps: the actual deviation was 1.6
+  // times the stated one, and 2% of the answers were off by more than six stated errors. Now the ratio is .9,
+  // and no answer is. Changing it by 30% changes no answer.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
-  // direction in a target would represent: a compromise. n directions miss an obstacle of the share s with
-  // the probability (1 - s)^n, a third if s is 1/n.
+  // direction in a target would represent: a compromise. The probability that n directions miss an obstacle
+  // covering the fraction s is (1 - s)^n, about a third for s = 1/n.
   RSPHERE_TUNED(ErrorEstimate, double, kUnseen, .5);
-  // The shared error of light vertices is the spread of their batches minus the part that is due to choosing
-  // vertices. If the two are nearly equal, the difference may be 0 by chance. The stated variance is at least
-  // this number of standard deviations of the spread: chosen by experiment. Where a tiny lamp lights a white
-  // room (-ab 0), 10% of the answers were off by more than six stated errors without the minimum; with it,
-  // none of 600.
+  // The stated variance due to light vertices is at least this number of standard deviations of the spread of
+  // their batches: chosen by experiment. It is the spread minus the part due to choosing vertices at random;
+  // if the two are nearly equal, the difference may be 0 by chance. Where a tiny lamp lights a white room
+  // (-ab 0), 10% of the answers were off by more than six stated errors without the minimum, and none of 600
+  // with it.
   static constexpr double kLeastShared = .5;
 };
 
-// When -Sa has enough sets (two_halves.cpp).
+// The end of -Sa (two_halves.cpp).
 struct Stopping {
-  // Each half requests sets until its standard error is below this multiple of the requested one: by
-  // measurement. Only one answer in 50, rather than one in 25, then needs more sets because the average's own
-  // error estimate is too large. Those sets cause the remaining bias. 30% less or more: within noise
-  // (stopping; error 1%, time 6%).
+  // Each half requests sets until its standard error is below this multiple of the requested one: measured.
+  // One answer in 50, instead of 25, then needs further sets because its own error estimate is too large.
+  // Those sets cause the remaining bias. Changing it by 30% has no effect beyond noise (stopping; noise:
+  // error 1%, time 6%).
   RSPHERE_TUNED(Stopping, double, kMargin, .95);
   // Cap on the ratio between the halves' numbers of sets: derived. If a set finds something very bright, the
-  // other half gets many sets; the cap then gives some to the half of the bright set as well, where they
-  // outweigh it sooner. With a ratio of 1, the number of sets of a half would depend on its own sets, with
-  // the same bias as without halves. 2 is therefore the smallest possible integer.
+  // other half gets many sets. Because of the cap, the half of the bright set also gets some, which outweigh
+  // it sooner. With a ratio of 1, the number of sets of a half would depend on its own sets, which is the
+  // bias that the halves avoid. 2 is therefore the smallest integer.
   static constexpr size_t kMostRatio = 2;
 };
 
-// Points that almost no light reaches (estimator.cpp, two_halves.cpp).
+// Points at which almost no light arrives (estimator.cpp, two_halves.cpp).
 struct Dark {
-  // -Sa gives up soon if the mean is below this fraction of the average radiance of the scene's surfaces, and
-  // a warning names the point if less than this fraction of the directions find light. Chosen without
-  // measurement. Within closed furniture of metal one direction in a hundred thousand finds a gap between
-  // surfaces; a million directions could not measure its light within a percent. 30% less or more: the same
-  // answers in all cases.
+  // -Sa stops early if the mean is below this fraction of the average radiance on the scene's surfaces. A
+  // warning names the point if less than this fraction of the directions find light. Chosen without
+  // measurement. In closed metal furniture, one direction in a hundred thousand finds a gap between surfaces;
+  // a million directions could not measure its light within a percent. Changing it by 30% changes no answer.
   RSPHERE_TUNED(Dark, double, kShare, 1e-3);
-  // Number of sets after which -Sa gives up: chosen by experiment. Within a closed column of metal they take
-  // 7 s (-ab 6).
+  // Number of sets after which -Sa stops at a dark point: chosen by experiment. In a closed metal column they
+  // take 7 s (-ab 6).
   RSPHERE_TUNED(Dark, size_t, kSets, 8);
 };
 
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
-  // Pixels along the height of a fisheye: about half a million pixels in all. The number does not trade error
+  // Height of a fisheye in pixels; it has about half a million pixels in all. The number does not trade error
   // for time, and tests/bench/sensitivity draws smaller pictures.
   RSPHERE_TUNED(Pictures, int, kFisheyeSide, 800);
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
-  // holds the middles of 14 to 21 of them, so that its light has a standard deviation of 6%. The light of a
-  // lamp of 1.4 pixels would have one of 38% instead of .1%.
+  // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of
+  // 1.4 pixels it would be 38%; with separate samples it is .1%.
   //
-  // It is also the number of samples of such a source for each pixel that it covers, and the least number of
-  // its samples: by measurement. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the
-  // picture, with 16 they lose 1 to 3.5%. 30% less or more: the same answers in all cases.
+  // It is also the number of samples of such a source per covered pixel, and the minimum per source:
+  // measured. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16
+  // they lose 1 to 3.5%. Changing it by 30% changes no answer.
   static constexpr double kSmallest = 16;
-  // Offsets from the middle of a pixel (in pixels) at which the background of a small source is sampled:
-  // chosen by experiment.
+  // Offsets from the middle of a pixel (in pixels) of the rays that look for the background behind a small
+  // source: chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
-  // One pixel in each square of this side (in pixels) gathers indirect light, with 32 rays: chosen by
-  // experiment.
+  // Side of the squares of pixels (in pixels) in each of which one pixel gathers indirect light, with 32
+  // rays: chosen by experiment.
   RSPHERE_TUNED(Pictures, int, kSharing, 2);
-  // The same where shadow rays find all light (there is neither daylight nor glow), so that gathers are less
-  // noisy: chosen by experiment in the open-plan office. 2: error -21%; 4: error +26% (picture from point,
-  // which has 1% of the pixels; noise: error 4%, time 6%).
+  // The same where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:
+  // chosen by experiment in the open-plan office. With 2, the error changes by -21%, with 4 by +26% (picture
+  // from point with 1% of the pixels; noise: error 4%, time 6%).
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
-  // Passes of smoothing of indirect light: chosen by experiment. 2: error +10%; 4: within noise (picture from
-  // point; noise: error 1%, time 6%).
+  // Smoothing passes for indirect light: chosen by experiment. With 2, the error changes by +10%; with 4, no
+  // effect beyond noise (picture from point; noise: error 1%, time 6%).
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
-  // Further passes for indirect and direct light, in which only pixels share whose light differs by less than
-  // kSameLight: chosen by experiment. The noise that the first passes leave is 2 to 5%.
+  // Largest relative difference of light between pixels that share it in further passes, for indirect and
+  // direct light: chosen by experiment. The noise after the first passes is 2 to 5%.
   RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
-  // How often the direct light of a noisy pixel in a soft shadow is traced again: chosen by experiment. The
-  // picture of examples/idea takes 10% more time than without, and its shadow has an even edge.
+  // Number of times that the direct light of a noisy pixel in a soft shadow is traced again: chosen by
+  // experiment. The picture of examples/idea takes 10% longer, and the edge of its shadow becomes smooth.
   static constexpr int kRepeats = 8;
-  // Passes of smoothing of gloss, and the further passes for other light; and the least roughness of surfaces
-  // whose pixels share gloss: derived. Their lobe is about as wide as the blur of two passes, 2.2 pixels or
-  // .014 radians. 1 or 3 further passes for other light: within noise (picture from point; error below 1%,
-  // time 6%), but with 3 a glossy desk below a window is rougher.
+  // Smoothing passes for gloss, which is also the number of further passes for other light; and least
+  // roughness of surfaces whose pixels share gloss: derived. The lobe is then about as wide as the blur of
+  // two passes, 2.2 pixels or .014 radians. With 1 or 3 further passes for other light, no effect beyond
+  // noise (picture from point; noise: error below 1%, time 6%), but with 3 a glossy desk below a window looks
+  // rougher.
   static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
-  // Least cosine between the normals of pixels that share gloss: derived. It is that of 2 degrees, less than
-  // the width of such a lobe.
+  // Least cosine between the normals of pixels that share gloss: derived. It corresponds to 2 degrees, less
+  // than the width of such a lobe.
   static constexpr float kSameGlossNormal = .9994f;
-  // Pixels that differ from a neighbor by more than this, on an sRGB scale of 0 to 1, are also traced near
-  // their corners; if those rays differ by more than this, near the middles of the sides too. Chosen by
-  // experiment. 30% less: error -2%; 30% more: error +3% (picture from point; noise: error below 1%, time
-  // 6%).
+  // Visible difference between neighboring pixels, on an sRGB scale of 0 to 1. Where it is exceeded, four
+  // rays near the corners of the pixel are added; if these differ as much, four near the middles of its
+  // sides. Chosen by experiment. Reducing it by 30% changes the error by -2%, raising it by 30% by +3%
+  // (picture from point; noise: error below 1%, time 6%).
   RSPHERE_TUNED(Pictures, double, kVisible, .05);
   static constexpr std::array<std::array<double, 2>, 8> kAround = {{{-1 / 3., -1 / 3.},
                                                                     {1 / 3., -1 / 3.},
@@ -290,13 +293,13 @@ struct Pictures {
                                                                     {1 / 3., 0},
                                                                     {0, 1 / 3.}}};
   static constexpr size_t kCorners = 4;
-  // Rows are traced in sweeps that skip all but one in this number, so that each sweep takes about as long as
-  // another and progress reports are honest. It changes no picture.
+  // Rows are traced in this number of sweeps, each of which skips rows evenly. All sweeps then take about the
+  // same time, so that progress reports are right. It does not affect the picture.
   static constexpr int kSweeps = 16;
-  // Two pixels share light if the distance between the points that they show is at most this fraction of the
-  // distance from the eye, and the height of one point over the plane of the other at most this fraction of
-  // the distance between them: chosen by experiment. 30% less: error +25%; 30% more: error -13% (picture from
-  // point, which has 1% of the pixels, so that edges count more; noise: error 2%, time 6%).
+  // Two pixels share light if the distance between their points is at most this fraction of the distance from
+  // the eye, and the height of one point over the other's plane at most this fraction of the distance between
+  // them: chosen by experiment. Reducing it by 30% changes the error by +25%, raising it by 30% by -13%
+  // (picture from point with 1% of the pixels, where edges weigh more; noise: error 2%, time 6%).
   RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 

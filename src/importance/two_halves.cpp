@@ -10,7 +10,7 @@ namespace {
 
 using Tuning = tuning::Stopping;
 
-constexpr double kMostSets = 1e9;  // beyond any -Sx
+constexpr double kMostSets = 1e9;  // more than -Sx allows
 
 }  // namespace
 

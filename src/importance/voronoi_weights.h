@@ -9,8 +9,8 @@
 namespace rsphere {
 
 // -Sw v, the rule of the paper (Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance
-// Calculation", section 4): each special object gets dynamic directions, as many as its density times its
-// solid angle. If there are too many, those of the objects with the fewest are dropped. All directions are
+// Calculation", section 4): the number of dynamic directions to a special object is its density times its
+// solid angle. If there are too many in total, the objects with the fewest get none. All directions are
 // weighted by their Voronoi cells.
 class VoronoiWeights : public SamplingStrategy {
  public:
