@@ -14,9 +14,8 @@ namespace rsphere {
 
 using Words = std::vector<std::string_view>;
 
-// The arguments of one primitive as its file gives them, and errors that name its place. Only
-// modifier_arguments.h and shape_arguments.h know what each argument means. Words refer to the description,
-// which must outlive them.
+// The arguments of one primitive as its file gives them, unconverted. Only modifier_arguments.h and
+// shape_arguments.h know their meaning. Words refer to the description, which must outlive them.
 class PrimitiveArguments {
  public:
   PrimitiveArguments(const rad::Description& description, rad::PrimitiveId primitive)
@@ -28,28 +27,28 @@ class PrimitiveArguments {
   size_t strings() const { return primitive_.strings; }
   std::span<const double> reals() const { return description_.reals(primitive_); }
 
-  // Of a polygon: the index of its first vertex in the vertices of the description.
+  // For a polygon: the index of its first vertex in the vertices of the description.
   uint32_t firstVertex() const { return static_cast<uint32_t>(primitive_.firstReal); }
 
   // The string argument at an index. Throws rad::Error if there is none.
   std::string_view string(size_t i) const;
-  // `count` string arguments from the index `first` on. Throws rad::Error if there are fewer.
+  // `count` string arguments, starting at index `first`. Throws rad::Error if there are fewer.
   Words strings(size_t first, size_t count) const;
-  // The string arguments from the index `first` on, which may be none.
+  // All string arguments from index `first` on; there may be none.
   Words stringsFrom(size_t first) const;
 
-  // Real arguments from an index on. REQUIRES that they exist: one of the checks below has passed.
+  // Real arguments, starting at an index. REQUIRES that they exist: one of the checks below has passed.
   V3d vector(size_t at) const;
   Color color(size_t at) const;
 
-  // Each throws rad::Error if the number of arguments differs.
+  // Each throws rad::Error if the number of arguments is wrong.
   void needReals(size_t count) const;
   void needAtLeast(size_t strings, size_t reals = 0) const;
   void needAtMostStrings(size_t most) const;
 
-  // Throws rad::Error with the primitive's place.
+  // Throws rad::Error with the file and line of the primitive.
   [[noreturn]] void fail(std::string_view what, rad::Status status = rad::Status::input) const;
-  // Calls a receiver of warnings, if there is one, with the primitive's place.
+  // Passes a warning with the file and line of the primitive to the receiver, if there is one.
   void warn(const rad::Warn& receiver, std::string_view what) const;
 
  private:
@@ -61,10 +60,11 @@ class PrimitiveArguments {
 std::string placeOf(const rad::Description& description, rad::PrimitiveId primitive);
 std::string placeOf(const rad::Description& description, const rad::Primitive& primitive);
 
-// The transform among words, from the first word on that can begin one; empty if there is none.
+// The transform among the arguments: everything from the first word that can begin one. Empty if there is
+// none.
 Words transformAmong(std::span<const std::string_view> words);
 
-// The placement by a transform; the identity if it is empty. Throws rad::Error if it is not a transform.
+// Reads a transform; the identity if it is empty. Throws rad::Error if it is not a transform.
 Placement readPlacement(const PrimitiveArguments& arguments, std::span<const std::string_view> transform);
 
 }  // namespace rsphere

@@ -19,7 +19,7 @@ using rad::Place;
 using rad::Primitive;
 using rad::Type;
 
-// Reads the files that a scene names, and converts the surfaces of them all.
+// Reads the files that a scene names, and converts their surfaces and its own.
 class Builder {
  public:
   Builder(rad::Description description, const rad::ReadOptions& options)
@@ -30,7 +30,7 @@ class Builder {
 
   Scene build() {
     addGroup(0);
-    // Octrees that instances name, including those named by other octrees; then the meshes of them all.
+    // Octrees that instances name may name further octrees. The meshes named by all of these follow.
     for (size_t i = 0; i < octrees_.size(); ++i) {
       const Place from = primitive(octrees_[i].namedBy).place;
       addGroup(adopt(read(octrees_[i].namedBy, [&] { return rad::readOctree(octrees_[i].file, options_); }),
@@ -46,7 +46,7 @@ class Builder {
   }
 
  private:
-  // A file that primitives name, and the first primitive that names it.
+  // A file that primitives name, and the first of these primitives.
   struct NamedFile {
     std::string file;
     PrimitiveId namedBy;
@@ -56,7 +56,8 @@ class Builder {
 
   // ---- octrees and meshes
 
-  // Calls a reader of primitive i's file. Its errors get the primitive that named the file appended.
+  // Calls a function that reads the file named by primitive i. If it fails, the error also names that
+  // primitive.
   template <class Read>
   std::invoke_result_t<Read> read(PrimitiveId i, const Read& reader) const {
     try {
@@ -72,8 +73,8 @@ class Builder {
     modifiers_.beginFile(firstPrimitive);
   }
 
-  // Appends the description of another file, to which the following primitives belong. Returns the index of
-  // its first primitive.
+  // Appends the description of another file to the scene's. Primitives from here on belong to that file.
+  // Returns the index of the first of them.
   uint32_t adopt(rad::Description&& description, Place from) {
     const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
     rad::append(scene_.description, std::move(description), from);
@@ -81,7 +82,7 @@ class Builder {
     return first;
   }
 
-  // Adds a group: the surfaces among the primitives from this one on.
+  // Adds a group: all surfaces among the primitives starting with this one.
   void addGroup(uint32_t firstPrimitive) {
     const rad::PrimitiveList& primitives = scene_.description.primitives;
     const size_t firstSurface = scene_.surfaces.size();
@@ -95,7 +96,7 @@ class Builder {
     scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
   }
 
-  // The index of a file among those of its kind, in the order in which they are first named.
+  // The index of a file in `files`, in the order of first use.
   static uint32_t numberOf(const std::string& file, PrimitiveId i, std::vector<NamedFile>& files,
                            std::unordered_map<std::string, uint32_t>& numbers) {
     const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
@@ -162,7 +163,7 @@ class Builder {
     if (scene_.surfaces.size() <= Scene::kFewSurfaces) scene_.names.push_back(p.name);
   }
 
-  // The number of the finish with this modifier.
+  // The index of the finish with this modifier.
   uint32_t finishOf(PrimitiveId described) {
     std::vector<Finish>& finishes = scene_.surfaces.finishes();
     const auto [at, isNew] = finishOf_.try_emplace(described, static_cast<uint32_t>(finishes.size()));

@@ -9,13 +9,13 @@
 
 namespace rsphere {
 
-// A small subset of many surfaces, numbered in their order. It takes 2 bits for each surface of the whole,
-// and looks up a number in constant time.
+// A small subset of many surfaces, numbered in order of their ids. It takes 2 bits for each surface of the
+// scene, and finds the number of a surface in constant time.
 class ChosenSurfaces {
  public:
   explicit ChosenSurfaces(size_t surfaces) : words_(surfaces / 64 + 1) {}
 
-  // Chooses one more. REQUIRES: it follows those that have been chosen.
+  // Adds a surface to the subset. REQUIRES: its id is above those added before.
   void add(SurfaceId surface) {
     const size_t word = surface.index() / 64;
     for (; last_ < word; ++last_) words_[last_ + 1].before = count_;
@@ -23,7 +23,7 @@ class ChosenSurfaces {
     ++count_;
   }
 
-  // The number of surfaces that were chosen before this one; empty if it was not chosen.
+  // The number of a surface in the subset; empty if it is not in the subset.
   std::optional<uint32_t> numberOf(SurfaceId surface) const {
     const Word& word = words_[surface.index() / 64];
     const uint64_t bit = uint64_t{1} << surface.index() % 64;
@@ -34,7 +34,7 @@ class ChosenSurfaces {
  private:
   struct Word {
     uint64_t bits = 0;
-    uint32_t before = 0;  // the number of surfaces in the words before; set up to last_
+    uint32_t before = 0;  // number of chosen surfaces in all preceding words; valid up to last_
   };
 
   std::vector<Word> words_;

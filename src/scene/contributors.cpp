@@ -14,7 +14,7 @@ size_t positionOf(const std::vector<std::string>& names, const std::string& name
   return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// The color that a material emits; null if it is not a source.
+// The emission of a material; null if it is not a light source.
 Color* emissionOf(Modifier& modifier) {
   auto* const material = std::get_if<Material>(&modifier.content);
   if (!material) return nullptr;

@@ -7,18 +7,18 @@
 
 namespace rsphere {
 
-// Makes goals (-Sg) of the surfaces whose modifier has one of these names: they emit importance 1, and every
-// other source is dark. Without names, the scene has no goals. Throws rad::Error if no surface has a name.
+// Makes goals (-Sg) of the surfaces with these modifiers: they emit importance 1, and all other sources are
+// dark. Without names, the scene has no goals. Throws rad::Error if a name is the modifier of no surface.
 void setGoals(Scene& scene, std::span<const std::string> goals);
 
 // The maximum number of contributors of a scene.
 inline constexpr size_t kMostContributors = 1000;
 
-// Gives each color a separate part for the light of each contributor (BandScheme::ofContributors), and sets
+// Divides each color into parts, one for the light of each contributor (BandScheme::ofContributors), and sets
 // Scene::contributors. The contributors are the goals, in the order of `goals`, the list passed to
-// setGoals(); without goals, the modifiers of type light, illum, glow and spotlight that emit, in the order
-// of the scene. Modifiers with the same name are one contributor. Throws rad::Error if there is none, or more
-// than kMostContributors, or if a goal is named twice.
+// setGoals(). Without goals they are the modifiers of type light, illum, glow and spotlight that emit, in the
+// order of the scene. Modifiers with the same name are one contributor. Throws rad::Error if there are none
+// or more than kMostContributors, or if a goal is named twice.
 void separateContributors(Scene& scene, std::span<const std::string> goals);
 
 }  // namespace rsphere

@@ -20,7 +20,7 @@ void Fingerprint::add(std::string_view text) {
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access) {
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   const rad::OpenFile file(path.value_or(""));
-  // The name may be that of a folder: "." means that there is no function file, and RAYPATH begins with it.
+  // The name may be a folder: "." stands for no function file, and is also a folder on RAYPATH.
   const bool isOpen = file.descriptor() >= 0 && file.isRegular();
   print.add(uint64_t{isOpen});
   if (isOpen) print.add(file.contents(*path));
@@ -32,7 +32,7 @@ void add(Fingerprint& print, const V3d& v) {
   for (int c = 0; c < 3; ++c) print.add(v[c]);
 }
 
-// The defining values of shapes, without derived ones.
+// Only the defining values of shapes, not those computed from them.
 void add(Fingerprint& print, const Polygon& polygon, const Scene& scene) {
   print.add(uint64_t{polygon.vertices});
   for (uint32_t i = 0; i < polygon.vertices; ++i) add(print, scene.vertices[polygon.firstVertex + i]);
@@ -58,7 +58,7 @@ void add(Fingerprint& print, const Distant& distant, const Scene&) {
   add(print, distant.direction);
   print.add(distant.halfAngle);
 }
-// The placements of these are in the description, as string arguments.
+// Their placements are string arguments in the description.
 void add(Fingerprint&, const Instance&, const Scene&) {}
 void add(Fingerprint&, const MeshInstance&, const Scene&) {}
 void add(Fingerprint&, const MeshFaces&, const Scene&) {}
@@ -86,11 +86,11 @@ uint64_t fingerprint(const Scene& scene) {
     print.add(uint64_t{static_cast<uint32_t>(p.modifier.number())} << 32 |
               static_cast<uint32_t>(p.aliased.number()));
     print.add(p.name);
-    if (!rad::isSurface(p.type))  // shapes have the numbers of surfaces
+    if (!rad::isSurface(p.type))  // the numbers of shapes are added with the surfaces
       for (const double x : d.reals(p)) print.add(x);
     for (size_t i = 0; i < p.strings; ++i) {
       print.add(d.string(p, i));
-      // The scene already contains the octrees and meshes.
+      // The contents of octrees and meshes are already part of the scene.
       if (rad::isSurface(p.type) || !seen.insert(d.stringArgs[p.firstString + i]).second) continue;
       addFile(print, d.string(p, i), scene.files);
     }

@@ -8,8 +8,8 @@
 
 namespace rsphere {
 
-// A 64-bit hash of a sequence of values, which depends on their order. It is the same on all
-// machines with the same byte order.
+// A 64-bit hash of a sequence of values and their order. It is the same on all machines with the same byte
+// order.
 class Fingerprint {
  public:
   void add(uint64_t x) { value_ = mixBits(value_ ^ x); }
@@ -21,12 +21,11 @@ class Fingerprint {
   uint64_t value_ = 0;
 };
 
-// Adds the contents of a file that is found along RAYPATH, or the fact that there is no such file.
+// Adds the contents of a file on RAYPATH, or the fact that it does not exist.
 void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access = {});
 
-// A hash of everything that determines the light in a scene: its description, its octrees and meshes,
-// and the contents of the files that its modifiers may name, which are read here. Positions in the
-// files (line numbers) do not enter.
+// A hash of everything that determines the light in a scene: its description, its octrees and meshes, and the
+// contents of the files that its modifiers may name, which are read here. Line numbers are excluded.
 uint64_t fingerprint(const Scene& scene);
 
 }  // namespace rsphere

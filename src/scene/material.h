@@ -23,7 +23,7 @@ struct Opaque {
 struct Trans {
   Color color;
   double specularity = 0, roughness = 0;
-  double transmissivity = 0;       // fraction of the light not reflected specularly that passes
+  double transmissivity = 0;       // transmitted fraction of the light that is not reflected specularly
   double transmittedSpecular = 0;  // fraction of the transmitted light that is not scattered
 };
 // The surface of a solid, with Fresnel reflection and absorption per unit length.
@@ -38,14 +38,14 @@ struct Interface {
   Color outerTransmission;
   double outerRefraction = 1;
 };
-// A thin pane. transmissivity: of one passage at normal incidence, without the reflections.
+// A thin pane. transmissivity: of a single passage at normal incidence, without interreflection.
 struct Glass {
   Color transmissivity;
   double refraction = 1.52;
 };
 
-// `functions` in the materials below: the index of the material's own modifier, by which SurfaceFunctions
-// evaluates it.
+// `functions` in the materials below: the index of the material's modifier, with which SurfaceFunctions
+// evaluates its functions.
 
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
@@ -58,7 +58,7 @@ struct Anisotropic {
   double transmissivity = 0, transmittedSpecular = 0;
   ModifierId functions = kNone;
 };
-// ashik2: the higher the powers, the smoother the surface. The diffuse and specular colours add up.
+// ashik2: higher powers mean a smoother surface. The reflection is the sum of both colours.
 struct Ashikhmin {
   Color diffuse, specular;
   double powerAlong = 0, powerAcross = 0;
@@ -73,7 +73,7 @@ struct FunctionScatterer {
   double transmissivity = 0, transmittedSpecular = 0;
   ModifierId functions = kNone;
 };
-// BRTDfunc. Only arguments that are plain numbers enter here; the others are evaluated at each hit.
+// BRTDfunc. Contains only arguments that are plain numbers; the others are evaluated at each hit.
 struct BrtdFunction {
   Color diffuseFront, diffuseBack, diffuseTransmitted;
   bool transmits = true;     // sharply: some transmission argument is not "0"
@@ -84,7 +84,7 @@ struct BrtdFunction {
 };
 // WGMDfunc: like trans2, but each component has its own modifier and functions.
 struct WgmdFunction {
-  // Upper bound of the lobe's share and lower bounds of its roughnesses: 1 and 0 if functions decide.
+  // Upper bound of the lobe's share and lower bounds of its roughnesses. If functions decide: 1 and 0.
   struct Lobe {
     double share = 1, roughnessAlong = 0, roughnessAcross = 0;
     std::optional<ModifierId> modifier;  // kNone: void; empty: the material's
@@ -104,7 +104,8 @@ struct BsdfMaterial {
   ModifierId functions = kNone;
 };
 
-// How a surface of illum or mirror is shaded for rays that do not see it as a light source or a relay.
+// The shading of an illum or mirror for rays that neither sample it as a light source nor are mirrored as
+// part of a virtual source.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
   ModifierId modifier = kNone;  // for Kind::modifier
@@ -119,14 +120,15 @@ struct Prism {
   int images = 1;
   ModifierId functions = kNone;
 };
-// Between the front and the back of antimatter, surfaces with certain modifiers do not exist. cut: shades the
-// places where the back cuts through a volume that these surfaces enclose; Kind::pass leaves those open.
+// Surfaces with certain modifiers do not exist between the front and the back of antimatter. cut: shading of
+// the places where its back cuts through a volume enclosed by these surfaces; with Kind::pass, the cut is
+// open.
 struct Antimatter {
-  uint64_t clips = 0;  // the bits of those modifiers, see Surface::clip
+  uint64_t clips = 0;  // bits of those modifiers, see Surface::clip
   Alternate cut{Alternate::Kind::pass};
 };
 // A volume that absorbs and scatters light. sources: the light sources whose light is scattered;
-// "mirror>lamp" is the lamp as seen by way of a mirror or prism.
+// "mirror>lamp" is the image of the lamp by a mirror or prism.
 struct Mist {
   Color extinction{0, 0, 0};                        // per unit length, added to the surrounding medium's
   bool hasAlbedo = false, hasEccentricity = false;  // if not, the surrounding medium's values apply
@@ -141,11 +143,11 @@ struct Light {
 };
 struct Illum {
   Color radiance;
-  Alternate alternate;  // Kind::none also lets rays pass
+  Alternate alternate;  // Kind::none, too, lets rays pass
 };
 // reach (world units): beyond this distance it is not sampled as a light source, and its light arrives only
-// by indirect rays that happen to hit it. 0: its light always arrives in this way. Negative: it does not
-// light the scene and is only seen directly.
+// by indirect rays that hit it by chance. 0: the same at any distance. Negative: it lights nothing and is
+// only seen directly.
 struct Glow {
   Color radiance;
   double reach = 0;
@@ -160,7 +162,8 @@ struct Spotlight {
 using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,
                               WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,
                               Antimatter, Mist, Light, Illum, Glow, Spotlight>;
-// Code that asks for one material alone asserts this number, and so fails to compile until it was read again.
+// Code that handles only one type of material asserts this number: it stops compiling when a type is added,
+// until somebody has checked it.
 inline constexpr size_t kMaterialTypes = std::variant_size_v<Material>;
 
 }  // namespace rsphere

@@ -158,9 +158,9 @@ std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
 
 namespace {
 
-// The transmissivity (of one passage) at which a pane transmits all light at normal incidence, the
-// reflections between its two sides included. From the transmittance (1-r)^2 t / (1 - r^2 t^2) = 1, with
-// Fresnel's reflectance r of one side. 1.089 for the usual glass, and 1 for a refractive index of 1.
+// The transmissivity (of a single passage) at which a pane transmits all light at normal incidence, including
+// interreflection between its two sides. It solves (1-r)^2 t / (1 - r^2 t^2) = 1, with Fresnel's reflectance
+// r of one side: 1.089 for the usual glass, and 1 for a refractive index of 1.
 double mostTransmissivity(double refraction) {
   const double r = std::pow((refraction - 1) / (refraction + 1), 2);
   const double passed = (1 - r) * (1 - r);

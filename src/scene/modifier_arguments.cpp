@@ -13,7 +13,7 @@ namespace {
 
 using rad::Type;
 
-// The number of names that precede the other string arguments of a mixture.
+// The number of string arguments before those that all kinds have: a mixture begins with two names.
 size_t namesIn(const PrimitiveArguments& a) { return rad::isMixture(a.type()) ? 2 : 0; }
 Mixed readMixed(const PrimitiveArguments& a) {
   if (namesIn(a) == 0) return {};
@@ -25,7 +25,7 @@ FunctionFile readFunctionFile(const PrimitiveArguments& a, size_t at) {
   return {a.string(at), transformAmong(a.stringsFrom(at + 1))};
 }
 
-// The value of an expression if it is a number, otherwise this bound of it.
+// The value of an expression if it is a number; otherwise the given bound.
 double numberOr(std::string_view expression, double otherwise) {
   double value = 0;
   const char* const last = expression.data() + expression.size();

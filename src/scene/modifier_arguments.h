@@ -1,11 +1,11 @@
 #pragma once
-// The arguments of patterns, textures, mixtures and materials: for each kind of primitive one struct, and one
-// reader that checks the number and range of the arguments. Materials that need neither functions nor names
-// of other modifiers are their own structs.
+// The arguments of patterns, textures, mixtures and materials. Each kind of primitive has a struct, and a
+// reader that checks the number and range of its arguments. Materials without functions and without names of
+// other modifiers are read directly into their structs.
 //
-// Each reader throws rad::Error with the primitive's place if an argument is missing or out of range. It does
-// not look up the files and modifiers that arguments name. Words refer to the description, which must outlive
-// them but may grow. REQUIRES that the primitive has one of the types that are given above the struct.
+// Each reader throws rad::Error with the file and line of the primitive if an argument is missing or out of
+// range. Files and modifiers that arguments name are not looked up. Words refer to the description, which may
+// grow but must outlive them. REQUIRES that the primitive has one of the types listed above the struct.
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -16,9 +16,9 @@
 
 namespace rsphere {
 
-// A function file, and the transform of its coordinates, which is empty if there is none.
+// A function file, and a transform of its coordinates; empty if there is none.
 struct FunctionFile {
-  std::string_view name;  // "." if expressions need none
+  std::string_view name;  // "." if no function file is needed
   Words transform;
 };
 
@@ -42,9 +42,9 @@ struct DataArguments {
   Mixed mixed;
   Words corrections;      // functions of the values of the tables
   Words tables;           // data files
-  std::string_view file;  // the function file of both corrections and coordinates
-  // The coordinates, as many as the tables have dimensions (specdata: one less, because the last dimension is
-  // the wavelength), then the transform.
+  std::string_view file;  // the function file for corrections and coordinates
+  // The coordinates, as many as the tables have dimensions, then the transform. specdata has one coordinate
+  // less, because the last dimension is the wavelength.
   Words rest;
 };
 DataArguments readData(const PrimitiveArguments& arguments);
@@ -63,10 +63,10 @@ PictureArguments readPicture(const PrimitiveArguments& arguments);
 struct TextArguments {
   Mixed mixed;
   std::string_view font, file;
-  Words words;                                 // the text; empty if the file has it
+  Words words;                                 // the text; empty if it is in the file
   V3d anchor, right, down;                     // world units
   std::vector<double> foreground, background;  // by channel: 1, 3, or none for mixtext
-  std::optional<double> spacing;               // of characters, as in the font if empty
+  std::optional<double> spacing;               // between characters; empty: that of the font
 };
 TextArguments readText(const PrimitiveArguments& arguments);
 
@@ -103,7 +103,7 @@ Light readLight(const PrimitiveArguments& arguments);
 Glow readGlow(const PrimitiveArguments& arguments);
 Spotlight readSpotlight(const PrimitiveArguments& arguments);
 
-// mirror, illum: a color, and the name of the alternate material ("void" is one); empty if it is not given.
+// mirror, illum: a color, and the name of the alternate material (may be "void"); empty if it is not given.
 struct AlternatingArguments {
   Color color;  // reflectance of mirror, radiance of illum
   std::optional<std::string_view> alternate;
@@ -111,13 +111,13 @@ struct AlternatingArguments {
 AlternatingArguments readAlternating(const PrimitiveArguments& arguments);
 
 struct AntimatterArguments {
-  Words clipped;  // names of modifiers; the first is also that of the cut
+  Words clipped;  // names of modifiers; the first one also shades the cut
 };
 AntimatterArguments readAntimatter(const PrimitiveArguments& arguments);
 
-// ---- materials with functions. In `values`, `functions` and the indexes of modifiers are not set.
+// ---- materials with functions. The readers leave `functions` and indices of modifiers in `values` unset.
 
-// The expressions of the direction that orients elliptical highlights.
+// Expressions for the direction that orients elliptical highlights.
 struct OrientationArguments {
   Words direction;  // ux uy uz
   FunctionFile file;
@@ -188,12 +188,12 @@ BsdfArguments readBsdf(const PrimitiveArguments& arguments);
 
 // prism1, prism2
 struct PrismArguments {
-  std::vector<Words> images;  // four expressions for each: a coefficient and a direction
+  std::vector<Words> images;  // for each, four expressions: a coefficient and a direction
   FunctionFile file;
 };
 PrismArguments readPrism(const PrimitiveArguments& arguments);
 
-// The arguments of a modifier that is evaluated at each hit, by functions, data, a picture or text.
+// The arguments of modifiers that are evaluated at each hit, by functions, data, a picture or text.
 using EvaluatedArguments =
     std::variant<FunctionArguments, DataArguments, PictureArguments, TextArguments, SpectrumArguments,
                  SpectrumFileArguments, SpectralFunctionArguments, AnisotropicArguments, AshikhminArguments,

@@ -12,7 +12,7 @@ using rad::Type;
 
 namespace {
 
-// Lets the materials that have functions know the index of their modifier.
+// Stores the index of its modifier in a material with functions.
 void setFunctions(Material& material, ModifierId index) {
   std::visit(
       [index](auto& kind) {
@@ -31,8 +31,8 @@ void ModifierBuilder::beginFile(uint32_t firstPrimitive) {
 ModifierId ModifierBuilder::modifier(PrimitiveId described) {
   if (described == rad::kVoid) return kNone;
   modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
-  // Follows the chain from described to void without recursion, because a file may nest as
-  // deeply as it likes.
+  // The loop follows the chain from `described` to void. It avoids recursion because a file may contain
+  // chains of any length.
   std::vector<PrimitiveId> chain;
   PrimitiveId next = described;
   while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
@@ -49,7 +49,7 @@ ModifierId ModifierBuilder::modifier(PrimitiveId described) {
       if (alias.type != Type::alias) break;
       target = alias.aliased != rad::kVoid ? alias.aliased : target == i ? rad::kVoid : alias.modifier;
     }
-    if (target != rad::kVoid) {  // an alias without a target is its modifier
+    if (target != rad::kVoid) {  // an alias without a target stands for its modifier
       Made made = make(target);
       const ModifierId index(scene_.modifiers.size());
       if (auto* material = std::get_if<Material>(&made.content)) {
@@ -71,8 +71,7 @@ uint64_t ModifierBuilder::clipOf(PrimitiveId described) const {
   return found != clipOf_.end() ? found->second : 0;
 }
 
-// Index in the description of the latest definition of a modifier before primitive i; rad::kVoid if there is
-// none.
+// The index of the latest definition of a modifier before primitive i; rad::kVoid if there is none.
 PrimitiveId ModifierBuilder::definedBefore(PrimitiveId i, std::string_view name) {
   if (!index_) index_.emplace(scene_.description, firstPrimitive_);
   return index_->before(name, i);
@@ -85,7 +84,7 @@ ModifierId ModifierBuilder::named(PrimitiveId i, std::string_view name) {
   const PrimitiveId described = definedBefore(i, name);
   if (described == rad::kVoid)
     arguments.fail(fmt::format("undefined modifier \"{}\"{}", printable(name), index_->nearest(name, i)));
-  // A ray that hits nested modifiers recurses as deeply, and splits into up to 2^depth evaluations.
+  // At a hit, nested modifiers recurse to the same depth, with up to 2^depth evaluations.
   if (depth_ == kDeepest) arguments.fail(fmt::format("modifiers are nested more than {} deep", kDeepest));
   ++depth_;
   const ModifierId converted = modifier(described);
@@ -211,8 +210,8 @@ Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& 
   return {Alternate::Kind::modifier, named(i, *arguments.alternate)};
 }
 
-// The modifier that WGMDfunc names for a component. A component that reflects or transmits nothing needs
-// none.
+// The modifier that WGMDfunc names for a component. None is needed if the component reflects or transmits
+// nothing.
 std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name,
                                                              bool used) {
   if (!used || name == "inherit") return std::nullopt;
@@ -250,8 +249,8 @@ Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& a
   return made;
 }
 
-// Warns of a material that sends on more light than arrives, once for equal definitions. A pattern among its
-// modifiers may multiply its color by less than 1, so that nothing is said then.
+// Warns of a material from which more light leaves than arrives, once for equal definitions. If a pattern
+// modifies the material there is no warning, because the pattern may multiply its color by less than 1.
 void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, ModifierId next) {
   const std::optional<Excess> excess = excessOf(material);
   if (!excess) return;
@@ -263,7 +262,7 @@ void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, Modi
   warnOnce(i, text);
 }
 
-// Warns of a source that would take light away: rays that hit it have its radiance, but it lights nothing.
+// Warns of a source with negative radiance: rays that hit it return the radiance, but it lights nothing.
 void ModifierBuilder::warnOfNegativeLight(PrimitiveId i, const Material& material) {
   const std::optional<Radiance> radiance = sourceRadiance(material);
   if (!radiance || maxChannel(radiance->color) > 0 || !(minChannel(radiance->color) < 0)) return;

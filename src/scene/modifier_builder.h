@@ -16,24 +16,24 @@
 
 namespace rsphere {
 
-// Converts modifiers to Scene::modifiers, each once: those that surfaces use, and those that their arguments
-// name.
+// Converts modifiers to Scene::modifiers: those that surfaces use, and those named in their arguments. Each
+// is converted once.
 class ModifierBuilder {
  public:
   // Keeps references to both. The description of the scene may grow between calls.
   ModifierBuilder(Scene& scene, const rad::Warn& warn) : scene_(scene), warn_(warn) {}
 
-  // Starts on a file whose description, from this primitive on, has been appended to the scene's. Its string
-  // arguments name only modifiers of the same file.
+  // Begins a new file. Its description, starting with this primitive, has been appended to the scene's.
+  // String arguments in it refer only to modifiers of the same file.
   void beginFile(uint32_t firstPrimitive);
 
-  // Converts the modifier at this index of the description and the chain of those that modify it. Returns its
-  // index in Scene::modifiers; kNone for rad::kVoid. Throws rad::Error with a primitive's place for: wrong
-  // arguments, undefined names, modifiers that name each other too deeply, and types that are not supported.
+  // Converts the modifier at this index of the description, and the chain of its own modifiers. Returns its
+  // index in Scene::modifiers; kNone for rad::kVoid. Throws rad::Error with the file and line of a primitive
+  // for: wrong arguments, undefined names, modifiers that name each other too deeply, and unsupported types.
   ModifierId modifier(PrimitiveId described);
 
-  // Surface::clip of the surfaces with the modifier at this index of the description. All modifiers of the
-  // scene must have been converted before.
+  // Surface::clip of surfaces with the modifier at this index of the description. REQUIRES that all modifiers
+  // of the scene have been converted.
   uint64_t clipOf(PrimitiveId described) const;
 
  private:
@@ -52,7 +52,7 @@ class ModifierBuilder {
     template <class Arguments>
     Made(Content made, Arguments read)
         : content(std::move(made)), arguments(std::make_unique<EvaluatedArguments>(std::move(read))) {}
-    // A material whose arguments are only its values and what its functions are made from.
+    // A material whose arguments are its values and the data for its functions.
     template <class Arguments>
     requires requires(Arguments read) { read.values; }
     Made(Arguments read) : Made(read.values, read) {}
@@ -75,12 +75,12 @@ class ModifierBuilder {
 
   Scene& scene_;
   const rad::Warn& warn_;
-  uint32_t firstPrimitive_ = 0;              // of the file that is being converted
-  std::optional<rad::ModifierIndex> index_;  // made when a string argument first names a modifier
-  int depth_ = 0;                            // of nested conversions by such names
+  uint32_t firstPrimitive_ = 0;              // first primitive of the file that is being converted
+  std::optional<rad::ModifierIndex> index_;  // created when a string argument first names a modifier
+  int depth_ = 0;                            // nesting of conversions through names in arguments
   std::unordered_map<PrimitiveId, uint64_t> clipOf_;
   uint32_t mists_ = 0;
-  std::set<std::string> warned_;  // so that the copies of an array give one warning
+  std::set<std::string> warned_;  // texts of past warnings, so that the copies of an array cause one warning
   ById<PrimitiveId, ModifierId> modifierOf_;
 };
 

@@ -15,7 +15,7 @@ class Nesting {
  public:
   explicit Nesting(const Scene& scene) : scene_(scene), heights_(scene.groups.size(), kUnknown) {}
 
-  // The number of levels of octrees and meshes below this group, which is itself at `depth`.
+  // The number of levels of octrees and meshes below this group, which is at `depth`.
   int height(uint32_t group, int depth) {
     constexpr int kOpen = -1;
     int& known = heights_[group];

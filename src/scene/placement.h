@@ -10,9 +10,9 @@
 
 namespace rsphere {
 
-// The transform between an octree or mesh and the coordinates that it is placed in. Scales are positive
-// even if the transform mirrors: as in RADIANCE, normals are transformed like any other vector, so that
-// no surface is turned inside out.
+// The transform between the coordinates of an octree or mesh (inner) and those in which it is placed (outer).
+// Scales are positive even for mirror images. As in RADIANCE, normals are transformed like any other vector,
+// so that no surface is turned inside out.
 struct Placement {
   rad::Similarity toOuter, toInner;
 
@@ -27,9 +27,9 @@ Placement within(const Placement& outer, const Placement& inner);
 // The bounding box of a transformed box.
 Box3d placed(const Placement& placement, const Box3d& box);
 
-// The instances that contain an object, as their placements, outermost first; empty for an object in the
-// scene itself. Hits and rays store a path and copy it often. As most paths are empty, the entries beyond
-// `count` are neither initialized nor copied.
+// The placements of the instances that contain an object, outermost first; empty for an object in the scene
+// itself. Hits and rays store a path and copy it often. Most paths are empty, so entries beyond `count` are
+// neither initialized nor copied.
 struct PlacementPath {
   static constexpr size_t kDeepest = 16;  // deeper nesting of instances is an error
   uint8_t count = 0;

@@ -14,16 +14,16 @@ inline uint64_t mixBits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A seed that depends only on the numbers of a record, so that its answer does not depend on the records
-// around it. -0 and 0 give the same seed.
+// The seed of a record, computed from its numbers only, so that its answer does not depend on neighbouring
+// records. -0 and 0 give the same seed.
 inline uint64_t seedOf(std::span<const double> numbers, uint64_t seed = 0) {
   for (double x : numbers) seed = mixBits(seed ^ std::bit_cast<uint64_t>(x == 0 ? 0. : x));
   return seed;
 }
 
-// A stream of uniform random numbers (xoroshiro128+, Blackman and Vigna 2018: 53 good bits of 64,
-// period 2^128 - 1). Streams of different seeds are independent for our purposes, because
-// SplitMix64 fills the 128 bits of state.
+// A stream of uniform random numbers: xoroshiro128+ (Blackman and Vigna 2018), of which 53 of 64 bits are
+// used; period 2^128 - 1. The state is filled by SplitMix64, so that streams with different seeds are
+// independent for Monte Carlo integration.
 class Random {
  public:
   explicit Random(uint64_t seed) : a_(mixBits(seed)), b_(mixBits(seed + 0x9e3779b97f4a7c15u)) {}

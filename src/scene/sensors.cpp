@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-// Moves sensors apart that lie in the same place, so that a ray aimed at one does not meet another.
+// Moves sensors at the same place apart, so that a ray aimed at one does not hit another.
 std::vector<Sensor> movedApart(std::span<const Sensor> sensors) {
   constexpr double kApart = 2 * kSensorSide;
   std::vector<Sensor> apart;
@@ -21,7 +21,7 @@ std::vector<Sensor> movedApart(std::span<const Sensor> sensors) {
         if ((other.point - sensor.point).length2() < .99 * kApart * kApart) return true;
       return false;
     };
-    // Free places of a cubic lattice, the nearest shells first.
+    // Tries the places of a cubic lattice, shell by shell outwards.
     for (int shell = 1; collides(); ++shell)
       for (int i = 0; i < (2 * shell + 1) * (2 * shell + 1) * (2 * shell + 1) && collides(); ++i) {
         const int side = 2 * shell + 1;
@@ -41,13 +41,13 @@ Polygon squareOf(const Sensor& sensor, std::vector<V3d>& vertices) {
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const V3d& corner : {-u - v, u - v, u + v, v - u}) vertices.push_back(sensor.point + corner);
   Polygon square = makePolygon(vertices, first, 4);
-  // Far from the origin, the vertices are rounded.
+  // The plane is set exactly, because vertices far from the origin are rounded.
   square.normal = sensor.normal;
   square.offset = sensor.normal.dot(sensor.point);
   return square;
 }
 
-// A primitive for messages and names.
+// Appends a primitive for use in messages and names.
 PrimitiveId describe(Scene& scene, const std::string& name, uint32_t file, uint32_t number) {
   rad::Primitive p;
   p.type = rad::Type::polygon;
@@ -95,7 +95,7 @@ void addSensors(Scene& scene, std::span<const Sensor> sensors) {
     all.push_back(shape, before.face(id).finish, before.primitiveOf(id));
   };
   for (size_t i = 0; i < outermost; ++i) keep(i);
-  // The world's own surfaces come first, and only these are light sources.
+  // The world's surfaces precede those of octrees and meshes, and only they can be light sources.
   const auto file = static_cast<uint32_t>(scene.description.files.size());
   scene.description.files.push_back({.name = "sensors", .numbered = false});
   const std::vector<std::string> names = namesOfSensors(more);

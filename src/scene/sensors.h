@@ -1,5 +1,5 @@
 #pragma once
-// Sensors and eyes as goals: places without a surface.
+// Sensors and eyes as goals without a surface in the scene.
 #include <span>
 #include <string>
 #include <vector>
@@ -8,29 +8,29 @@
 
 namespace rsphere {
 
-// A place that receives light like a very small Lambertian surface: by the cosine, from the side that the
-// normal points to.
+// A place that receives light like a very small Lambertian surface: in proportion to the cosine, on the side
+// of its normal.
 struct Sensor {
   V3d point{0, 0, 0};   // world
   V3d normal{0, 0, 1};  // unit
 };
 
-// The sensors of consecutive numbers x y z dx dy dz. The length of dx dy dz does not matter. Throws
-// rad::Error, which begins with `name` and the number of the sensor from 1, if a normal is 0 or a number is
-// not finite.
+// Sensors from consecutive numbers x y z dx dy dz; the length of dx dy dz is ignored. Throws rad::Error if a
+// direction is 0 or a number is not finite; the message begins with `name` and the number of the sensor, from
+// 1.
 std::vector<Sensor> sensorsOf(std::span<const double> numbers, const std::string& name);
 
-// The names that the sensors have as contributors: "sensor1" and so on.
+// The names of the sensors as contributors: "sensor1" and so on.
 std::vector<std::string> namesOfSensors(size_t count);
 
-// Makes goals of the sensors: light sources whose radiance times area is 1 W/sr, so that each counts as a
-// goal of area 1. Every other source but goals (setGoals()) is dark. A sensor is a square with a side of
-// kSensorSide, which only rays that are aimed at it meet: it blocks nothing, and reflects nothing. Sensors
-// in the same place are moved apart by two sides. Throws rad::Error if there are more than can be numbered.
+// Adds sensors as goals: light sources whose radiance times area is 1 W/sr, so that each contributes like a
+// goal of area 1. All other sources, except goals from setGoals(), are dark. A sensor is a square of side
+// kSensorSide that is hit only by rays aimed at it: it neither blocks nor reflects light. Sensors in the same
+// place are moved apart by two sides. Throws rad::Error if there are too many to be numbered.
 void addSensors(Scene& scene, std::span<const Sensor> sensors);
 
-// The side of a sensor's square (world units): a hundredth of a millimetre, in metres. Small beside what
-// distances are measured by, and large beside rounding and kSamePlace.
+// The side of a sensor's square (world units): in metres, a hundredth of a millimetre. Small compared with
+// usual distances, large compared with rounding and kSamePlace.
 inline constexpr double kSensorSide = 1e-5;
 
 }  // namespace rsphere

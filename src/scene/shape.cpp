@@ -14,11 +14,11 @@ namespace {
 // The rounding error of a coordinate difference, relative to the coordinates: two ulp.
 constexpr double kRounding = 4.5e-16;
 
-// Whether a root is neither at the origin nor too far. Callers test roots in ascending order.
+// Whether a root lies on the ray. Callers test roots in ascending order.
 bool within(double t, double farthest) { return t > kSamePlace && t <= farthest; }
 
-// The normal times twice the area. Relative to the first vertex, so that the sum keeps its accuracy far from
-// the origin.
+// The normal, scaled by twice the area. It is computed relative to the first vertex, so that it is accurate
+// far from the origin.
 V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
   V3d sum(0, 0, 0);
   for (size_t i = 2; i < vertices.size(); ++i)
@@ -26,7 +26,7 @@ V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
   return sum;
 }
 
-// The sum over the vertices of the distances from the plane through the first one.
+// The sum of the vertices' signed distances from the plane through the first one.
 double offsetsFromFirst(const V3d& normal, std::span<const V3d> vertices) {
   double offsets = 0;
   for (const V3d& v : vertices) offsets += normal.dot(v - vertices[0]);
@@ -55,7 +55,7 @@ Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   polygon.hasArea = 1;
   Box3d box;
   for (const V3d& v : vertices) box.extendBy(v);
-  // Rounded up, by more than rounding to single precision (2^-24) and rounding of the sum can reduce it.
+  // Rounded up by more than the rounding errors of the sum and of single precision (2^-24).
   polygon.extent = static_cast<float>(
       (box.size().x + box.size().y + box.size().z - box.size()[polygon.axis]) * (1 + 1e-6));
   return polygon;
@@ -77,11 +77,11 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> all) {
 
 namespace {
 
-// The greatest cross product of a point that is treated as lying on an edge. size: of the coordinates that it
-// is computed from.
+// Threshold of the cross product below which a point is treated as lying on an edge. size: of the coordinates
+// from which the product is computed.
 double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
 
-// inside() for a point that may lie on an edge or on the line through one.
+// inside() for a point that may lie on an edge or on its extension.
 bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, double y, double tolerance) {
   bool odd = false;
   const V3d* from = &vertices.back();
@@ -96,7 +96,7 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
       continue;
     }
     if (std::max(x0, x1) < -tolerance) continue;
-    // The point lies in the edge's box. It is either on the edge or clearly on one side of it.
+    // The point is in the bounding box of the edge. It is either on the edge or clearly on one side of it.
     const double cross = x0 * y1 - x1 * y0;
     const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
     if (std::abs(cross) <= onEdge(tolerance, size)) return true;
@@ -107,15 +107,15 @@ bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, doub
 
 }  // namespace
 
-// Has no branches that depend on the position of the point: half of them would be mispredicted.
+// Contains no branches that depend on the position of the point, because half of them would be mispredicted.
 bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
   const int xi = polygon.axis == 2 ? 0 : polygon.axis + 1;
   const int yi = xi == 2 ? 0 : xi + 1;
   const double x = point[xi], y = point[yi];
   const auto vertices = all.subspan(polygon.firstVertex, polygon.vertices);
-  // An upper bound for every edge whose box contains the point.
+  // An upper bound for all edges whose bounding box contains the point.
   const double near = onEdge(tolerance, polygon.extent + 4 * tolerance);
-  // The sign bit. Differences are point minus vertex, so that equal coordinates give a positive sign.
+  // The sign bit. Differences are point minus vertex, so that equal coordinates have a positive sign.
   const auto sign = [](double v) { return std::bit_cast<uint64_t>(v); };
   uint64_t odd = 0;
   double nearest = std::numeric_limits<double>::infinity();
@@ -134,9 +134,9 @@ bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, 
 bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine) {
   if (!polygon.hasArea) return false;
-  // The distance between the points at which two polygons that share an edge meet one ray: each rounds
-  // the distance along the ray separately. Points this close to the edge are inside both, or light would
-  // leak between them.
+  // Two polygons that share an edge compute hits of one ray that differ by this distance, because each rounds
+  // the distance along the ray separately. Points this close to the edge are inside both, so that no light
+  // leaks between them.
   const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;
   const double tolerance = 2 * kRounding * size / std::abs(cosine);
   return inside(polygon, vertices, origin + distance * direction, tolerance);
@@ -146,8 +146,8 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
                ShapeHit& hit) {
   const V3d m = origin - sphere.center;
   const double b = m.dot(direction);
-  // Uses the distance of the line from the centre instead of b^2 - c, which loses all accuracy for a small
-  // sphere far away.
+  // Computed from the distance between line and centre, because b^2 - c loses all accuracy for a small sphere
+  // far away.
   const V3d closest = m - b * direction;
   const double discriminant = sphere.radius * sphere.radius - closest.length2();
   if (!(discriminant >= 0)) return false;
@@ -234,8 +234,8 @@ Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
   if (polygon.hasArea) {
-    // Hits lie on the mean plane. If the vertices are not coplanar, it extends beyond their box along the
-    // projection axis.
+    // Hits lie on the mean plane. If the vertices are not coplanar, the plane extends beyond their box along
+    // the projection axis.
     const double out = thicknessOf(polygon, vertices) / std::abs(polygon.normal[polygon.axis]);
     box.min[polygon.axis] -= out;
     box.max[polygon.axis] += out;

@@ -16,16 +16,15 @@ namespace rsphere {
 using Imath::Box3d;
 using Imath::V3d;
 
-// Hits closer together than this along a ray are treated as coincident, and a ray does not hit
-// anything closer to its origin than this (world units). The value is RADIANCE's: scenes with
-// coincident surfaces rely on it.
+// Hits closer together than this along a ray are treated as coincident, and hits closer to the ray's origin
+// are ignored (world units). The value is RADIANCE's, on which scenes with coincident surfaces rely.
 inline constexpr double kSamePlace = 1e-6;
 
 // The length of a ray that hits nothing (world units): RADIANCE's infinity.
 inline constexpr double kFarAway = 1e10;
 
-// A ray's hit on a shape. normal: unit, on the front side, whichever side was hit. cosine: -normal .
-// direction, positive if the front was hit. The fields are not initialized, because every ray creates one.
+// A hit on a shape. normal: unit, on the front side, even if the back was hit. cosine: -normal . direction,
+// positive if the front was hit. The members are not initialized, because every ray creates a ShapeHit.
 struct ShapeHit {
   double distance;
   V3d normal;
@@ -34,17 +33,17 @@ struct ShapeHit {
 
 // A plane polygon, which may be concave or have holes that are connected by a seam. A point is inside if a
 // line from it to infinity crosses the boundary an odd number of times. If the vertices are not coplanar, the
-// polygon lies in their mean plane (RADIANCE reference manual, "polygon"). It has only what intersection
-// tests need, because large scenes consist of polygons; areaOf() and thicknessOf() compute the rest.
+// polygon lies in their mean plane (RADIANCE reference manual, "polygon"). Only data for intersection tests
+// are stored, because large scenes consist of polygons; areaOf() and thicknessOf() compute the rest.
 struct Polygon {
   static constexpr uint32_t kMostVertices = (1u << 29) - 1;
   V3d normal{0, 0, 1};       // unit, by the right-hand rule; Newell's sum over the vertices
-  double offset = 0;         // normal . p for the points p of the plane
+  double offset = 0;         // normal . p for points p of the plane
   uint32_t firstVertex = 0;  // range in Scene::vertices
   uint32_t vertices : 29 = 0;
-  uint32_t axis : 2 = 2;     // the axis of the largest component of normal
+  uint32_t axis : 2 = 2;     // index of the largest component of normal
   uint32_t hasArea : 1 = 0;  // if 0, it is never hit
-  float extent = 0;          // sum of the box's sizes along the two other axes, rounded up
+  float extent = 0;          // sum of the bounding box's sizes along the two other axes, rounded up
 };
 
 // inward: the front is inside (bubble).
@@ -70,17 +69,17 @@ struct Ring {
   double inner = 0, outer = 1;
 };
 
-// A cone of directions at infinity: "source". The tracer does not have it; a ray that hits
-// nothing else sees it.
+// A cone of directions at infinity: "source". The tracer does not contain it; rays that hit nothing else see
+// it.
 struct Distant {
   V3d direction{0, 0, 1};  // unit, towards it
   double halfAngle = 0;    // radians, at most pi
   double cosHalfAngle = 1;
   double solidAngle = 0;  // sr
 
-  // Whether a ray along the unit vector d sees the source. Solid angles are compared in single precision, as
-  // rtrace compares them: 2 pi rounds up, so that a hemisphere reaches 2.8e-8 radians below the horizon. In
-  // double precision rounding would open a gap between a sky and a ground of 180 degrees.
+  // Whether a ray in the direction d (unit) sees the source. Solid angles are compared in single precision,
+  // as in rtrace: 2 pi is rounded up, so that a hemisphere extends 2.8e-8 radians below the horizon. In
+  // double precision, rounding would leave a gap between a sky and a ground of 180 degrees each.
   bool isSeenAlong(const V3d& d) const {
     constexpr double kTwoPi = 2 * std::numbers::pi;
     return kTwoPi * (1 - direction.dot(d)) <= static_cast<float>(kTwoPi * (1 - cosHalfAngle));
@@ -99,30 +98,31 @@ struct MeshInstance {
   uint32_t mesh = 0;       // index in Scene::meshes
 };
 
-// The triangles of a mesh that share one of the mesh's own materials. They are hit through the mesh's
-// instances.
+// The triangles of a mesh with the same material from the mesh file. Rays hit them through instances of the
+// mesh.
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
-// Code that asks for one shape alone asserts this number, and so fails to compile until it was read again.
+// Code that handles only one type of shape asserts this number: it stops compiling when a type is added,
+// until somebody has checked it.
 inline constexpr size_t kShapes = std::variant_size_v<Shape>;
 
-// Every shape is Distant, a PlainShape or a NestedShape. The two concepts list their types, so that a visitor
-// that uses them does not compile for a new type of shape until the type is added to one of the lists or the
-// visitor handles it. Rays intersect the shape itself, by one of the functions below.
+// Every shape is Distant, a PlainShape or a NestedShape. These two concepts list their types, so that
+// visitors that use them do not compile for a new type of shape until it is added to a list or handled
+// separately. Rays intersect a plain shape directly, by one of the functions below.
 template <class S>
 concept PlainShape = OneOf<S, Polygon, Sphere, Cone, Ring>;
-// Rays hit the contents, or a part of them.
+// Rays intersect the contents of the shape, or part of them.
 template <class S>
 concept NestedShape = OneOf<S, Instance, MeshInstance, MeshFaces>;
 
-// A shape that is stored elsewhere, either as a Shape or as a bare Polygon.
+// Refers to a shape that is stored elsewhere as a Shape or as a bare Polygon.
 class ShapeRef {
  public:
   ShapeRef(const Shape& shape) : polygon_(std::get_if<Polygon>(&shape)), shape_(&shape) {}
   ShapeRef(const Polygon& polygon) : polygon_(&polygon) {}
 
-  // The shape if it is of this type, otherwise null.
+  // The shape if it has this type, otherwise null.
   template <class S>
   const S* as() const {
     if constexpr (std::is_same_v<S, Polygon>)
@@ -131,7 +131,7 @@ class ShapeRef {
       return shape_ ? std::get_if<S>(shape_) : nullptr;
   }
 
-  // Calls a visitor with the shape itself, as std::visit() does.
+  // Calls a visitor with the shape, like std::visit().
   template <class Visitor>
   friend decltype(auto) visit(Visitor&& visitor, ShapeRef shape) {
     return shape.polygon_ ? visitor(*shape.polygon_) : std::visit(visitor, *shape.shape_);
@@ -148,7 +148,7 @@ inline bool isPlain(ShapeRef shape) {
       [](const NestedShape auto&) { return false; });
 }
 
-// The normal of polygons and rings; null for shapes that are not plane.
+// The normal of a polygon or ring; null for other shapes.
 inline const V3d* planeNormal(ShapeRef shape) {
   using Answer = const V3d*;
   return match(
@@ -156,20 +156,20 @@ inline const V3d* planeNormal(ShapeRef shape) {
       [](const OneOf<Sphere, Cone, Distant> auto&) -> Answer { return nullptr; },
       [](const NestedShape auto&) -> Answer { return nullptr; });
 }
-// Whether the normal is the same everywhere, as RADIANCE sees it: faces of meshes are flat, too.
+// Whether the normal is the same everywhere. As in RADIANCE, this includes faces of meshes.
 inline bool isFlat(ShapeRef shape) {
   return match(
       shape, [](const OneOf<Polygon, Ring, MeshFaces> auto&) { return true; },
       [](const OneOf<Sphere, Cone, Distant, Instance, MeshInstance> auto&) { return false; });
 }
-// normal . p for the points p of the plane. For shapes that are not plane, it is 0 and means nothing.
+// normal . p for points p of the plane; 0 for shapes that are not plane.
 double planeOffset(ShapeRef shape);
 
-// Whether the shape surrounds a volume, so that it is seen from one side only. The ends of cones are open.
+// Whether the shape encloses a volume, so that it is seen from one side only. The ends of cones are open.
 bool isClosed(ShapeRef shape);
 
-// The area of one side (world units). For a cone, the slant height is taken as the length of the axis. 0 for
-// shapes that are not plain.
+// The area of one side (square world units). For a cone, the slant height is approximated by the length of
+// the axis. 0 for shapes that are not plain.
 double areaOf(ShapeRef shape, std::span<const V3d> vertices);
 double areaOf(const Polygon& polygon, std::span<const V3d> vertices);
 
@@ -179,10 +179,9 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> vertices);
 // The mean of the vertices.
 V3d centerOf(const Polygon& polygon, std::span<const V3d> vertices);
 
-// Each returns whether the ray from origin along the unit vector direction meets the shape farther than
-// kSamePlace and not beyond farthest; hit is then the first such point, and otherwise unchanged. Rounding:
-// distances are accurate to a few ulp of the largest coordinate involved. A ray whose cosine to a plane's
-// normal is at most kSamePlace misses the plane (as in RADIANCE).
+// Whether the ray hits the shape at a distance above kSamePlace and up to `farthest`. hit: the nearest such
+// point; unchanged if there is none. Distances are accurate to a few ulp of the largest coordinate involved.
+// As in RADIANCE, a ray misses a plane if its cosine to the normal is at most kSamePlace.
 inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit);
 bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
@@ -195,7 +194,7 @@ Box3d bounds(const Sphere& sphere);
 Box3d bounds(const Cone& cone);
 Box3d bounds(const Ring& ring);
 
-// The two above for any shape: no hit and an empty box if the shape is not plain.
+// intersect() and bounds() for any shape: no hit and an empty box if the shape is not plain.
 bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
                double farthest, ShapeHit& hit);
 Box3d bounds(ShapeRef shape, std::span<const V3d> vertices);
@@ -203,15 +202,15 @@ Box3d bounds(ShapeRef shape, std::span<const V3d> vertices);
 // Computes the polygon's plane and axis from its vertices (at least 3). It has no area if they are collinear.
 Polygon makePolygon(std::span<const V3d> vertices, uint32_t first, uint32_t count);
 
-// Whether a point of the polygon's plane lies inside. Points on the boundary, or within tolerance (world
-// units) and rounding of it, are inside.
+// Whether a point of the polygon's plane is inside. This includes points on the boundary, and those within
+// rounding or `tolerance` (world units) of it.
 bool inside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point, double tolerance = 0);
 
-// Whether a ray that meets the polygon's plane at this distance and cosine (see ShapeHit) meets it inside.
+// Whether a ray that meets the polygon's plane at this distance and cosine (as in ShapeHit) hits the polygon.
 bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                  const V3d& direction, double distance, double cosine);
 
-// The plane test is inline, because most polygons that are tested are missed by their plane.
+// The plane test is inline, because most tested polygons already fail it.
 inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
                       const V3d& direction, double farthest, ShapeHit& hit) {
   const double cosine = -polygon.normal.dot(direction);

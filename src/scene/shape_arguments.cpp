@@ -25,8 +25,8 @@ std::optional<Shape> unknownOrientation(const PrimitiveArguments& a, const Warn&
   return std::nullopt;
 }
 
-// Throws if a coordinate or size is beyond single precision, in which rays are traced: its square, an area or
-// a distance might not be finite.
+// Throws if a coordinate or size is beyond single precision, in which rays are traced. Its square, or areas
+// and distances computed from it, might not be finite.
 void needTraceable(const PrimitiveArguments& a) {
   for (const double real : a.reals())
     if (std::abs(real) > std::numeric_limits<float>::max())
@@ -58,7 +58,7 @@ std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn
     a.warn(warn, "zero area");
     return std::nullopt;
   }
-  // A thousandth of the size is visibly bent; the rounding of single-precision files stays far below.
+  // Deviations of a thousandth of the size are visible; rounding in files of single precision is far smaller.
   if (thicknessOf(polygon, vertices) > 1e-3 * std::sqrt(area)) a.warn(warn, "non-planar vertex");
   return polygon;
 }

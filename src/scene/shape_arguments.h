@@ -1,9 +1,9 @@
 #pragma once
-// The arguments of surfaces: one reader for each kind of primitive, which checks the number and range of the
+// The arguments of surfaces. Each kind of primitive has a reader that checks the number and range of its
 // arguments and makes the shape.
 //
-// Each reader throws rad::Error with the primitive's place for arguments that RADIANCE refuses. Where
-// RADIANCE warns and ignores the surface, it warns and returns nothing.
+// Each reader throws rad::Error with the file and line of the primitive for arguments that RADIANCE rejects.
+// Where RADIANCE warns and ignores the surface, it does the same and returns nothing.
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace rsphere {
 
-// vertices: those of the description.
+// vertices: of the description.
 std::optional<Polygon> readPolygon(const PrimitiveArguments& arguments, const rad::Warn& warn,
                                    std::span<const V3d> vertices);
 std::optional<Shape> readSphere(const PrimitiveArguments& arguments, const rad::Warn& warn);    // and bubble
@@ -22,7 +22,7 @@ std::optional<Shape> readCylinder(const PrimitiveArguments& arguments, const rad
 std::optional<Shape> readRing(const PrimitiveArguments& arguments, const rad::Warn& warn);
 std::optional<Shape> readSource(const PrimitiveArguments& arguments);
 
-// instance, mesh: a file and where its contents are placed.
+// instance, mesh: a file and the placement of its contents.
 struct PlacedFile {
   std::string file;
   Placement placement;

@@ -14,29 +14,29 @@ namespace rsphere {
 // Properties that all surfaces with the same modifier share.
 struct Finish {
   PrimitiveId described;   // the modifier in Scene::description; kNone: void
-  ModifierId modifier;     // the same in Scene::modifiers
-  ModifierId material;     // the first material of the chain that modifier begins, or else the mixture that
-                           // ends it. Decides ties between surfaces, and which are light sources
-  uint64_t clip = 0;       // the bit of its modifier in Antimatter::clips; 0: not clipped by any
+  ModifierId modifier;     // the modifier in Scene::modifiers
+  ModifierId material;     // the first material of the chain that starts with `modifier`; if there is none,
+                           // the mixture that ends it. It decides between coincident surfaces, and which
+                           // surfaces are light sources
+  uint64_t clip = 0;       // the modifier's bit in Antimatter::clips; 0: no antimatter clips it
   bool goal = false;       // its surfaces emit importance from their fronts, in addition to their material
-  Radiance importance{1};  // that its goals emit
-  bool sensor = false;     // its surface is the goal of a sensor, which only aimed rays meet (sensors.h)
-  // Whether its modifier is called "Phong", the customary name of textures that smooth a surface by
-  // interpolated normals. As in rtrace, such a texture does not deflect rays that pass straight through a
-  // thin surface (trans, glass and the like). Refraction by dielectric and interface follows the perturbed
-  // normal even so.
+  Radiance importance{1};  // emitted by its goals
+  bool sensor = false;     // its surface belongs to a sensor: only rays aimed at it hit it (sensors.h)
+  // Whether the modifier is called "Phong", the customary name of textures that smooth a surface by
+  // interpolating normals. As in rtrace, such a texture does not deflect rays that pass straight through a
+  // thin surface (trans, glass and the like), but dielectric and interface refract by the perturbed normal.
   bool smoothed = false;
   std::string name = "void";  // of the modifier
 };
 
-// A polygon and the number of its finish. For another shape the polygon has no area, and firstVertex is the
-// shape's index among the shapes that are not polygons.
+// A polygon and the index of its finish. For other shapes the polygon has no area, and firstVertex is the
+// index among the shapes that are not polygons.
 struct Face : Polygon {
   uint32_t finish = 0;
 };
 static_assert(sizeof(Face) == 48, "takes the padding of Polygon");
 
-// A surface as the list shows it: it refers to the list, which must outlive it unchanged.
+// A surface, put together from the list. It refers to the list, which must outlive it unchanged.
 struct Surface {
   SurfaceId id;
   ShapeRef shape;
@@ -46,7 +46,7 @@ struct Surface {
   bool goal, smoothed;
 };
 
-// The surfaces of a scene: 48 bytes each, and for shapes other than polygons 88 more.
+// The surfaces of a scene: 48 bytes each, plus 88 if it is not a polygon.
 class SurfaceList {
  public:
   class Iterator {
@@ -99,20 +99,21 @@ class SurfaceList {
     return face.hasArea ? ShapeRef(static_cast<const Polygon&>(face)) : ShapeRef(others_[face.firstVertex]);
   }
 
-  // The primitive in Scene::description that has the surface's name and place. Takes time logarithmic in the
-  // number of runs of consecutive surfaces.
+  // The primitive in Scene::description with the surface's name and place in its file. The time is
+  // logarithmic in the number of runs of consecutive surfaces.
   PrimitiveId primitiveOf(SurfaceId id) const;
 
   // By number.
   const std::vector<Finish>& finishes() const { return finishes_; }
   std::vector<Finish>& finishes() { return finishes_; }
 
-  // Appends a surface. For surfaces of consecutive primitives, the numbers of the primitives take no memory.
+  // Appends a surface. A surface whose primitive follows that of the previous one needs no memory for its
+  // primitive.
   void push_back(const Shape& shape, uint32_t finish, PrimitiveId primitive);
   void reserve(size_t more);
 
  private:
-  // Surfaces from `surface` on, whose primitives are consecutive.
+  // Surfaces starting with `surface`, whose primitives are consecutive.
   struct Run {
     SurfaceId surface;
     PrimitiveId primitive;
