@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kLeastCosine = .001;
 
-// The Fresnel rise of a polished WGMDfunc: Ward's exponential for an index of about 1.5. The constant is
-// RADIANCE's; it leaves a rise of .0008 at normal incidence.
+// The Fresnel increase of reflection for a polished WGMDfunc: Ward's exponential for an index of about 1.5.
+// The constant is RADIANCE's; it leaves an increase of .0008 at normal incidence.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - .00202943064; }
 constexpr double kFresnelSpecularity = .017999;
 
@@ -33,7 +33,8 @@ void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double 
   lobe.alongSquare = roughnessAlong * roughnessAlong;
   lobe.acrossSquare = roughnessAcross * roughnessAcross;
   if (lobe.tangents.given) return;
-  constexpr double kAlike = .001;  // roughnesses this close are treated as equal; RADIANCE's own figure
+  constexpr double kAlike = .001;  // difference below which roughnesses are treated as equal; RADIANCE's
+                                   // value
   lobe.disoriented = std::abs(roughnessAlong - roughnessAcross) > kAlike;
   lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
 }
@@ -47,7 +48,7 @@ double reflectedLobe(const EllipticLobe& lobe, const V3d& direction, const V3d& 
          (kPi * up2 * up2 * std::sqrt(along2 * across2));
 }
 
-// The lobe's value (1/sr) times the cosine of the direction to the source, cosineBeyond > 0.
+// The lobe's value (1/sr) times cosineBeyond (above 0), the cosine of the direction to the source.
 double transmittedLobe(const EllipticLobe& lobe, const V3d& toSource, double cosineBeyond,
                        double solidAngle) {
   const double widening = solidAngle / kPi;
@@ -73,7 +74,7 @@ V3d offset(const EllipticLobe& lobe, double spread, double u1, double u2) {
          radius * std::sin(angle) * std::sqrt(lobe.acrossSquare) * lobe.tangents.across;
 }
 
-// The lobe of a component of WGMDfunc. Sets sharp if the component is to become a sharp path instead.
+// The lobe of a component of WGMDfunc. Sets `sharp` if the component must become a sharp path instead.
 EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
   EllipticLobe lobe;
   lobe.share = c.at.pattern * c.share;
@@ -84,8 +85,8 @@ EllipticLobe beginLobe(const WgmdComponent& c, const V3d& along, bool& sharp) {
   return lobe;
 }
 
-// Decides whether a lobe is sampled (-st). If it is not, its share is added to the indirect light of the
-// diffuse component, provided that this is not black.
+// Decides whether a lobe is sampled (-st). Otherwise its share is added to the indirect light of the diffuse
+// component, unless that is black.
 void sampleOrAdd(EllipticLobe& lobe, double share, double threshold, DiffuseComponent& diffuse) {
   lobe.sampled = threshold < share - kNegligible;
   if (!lobe.sampled && maxChannel(diffuse.share) > kNegligible) diffuse.ambient += lobe.share;
@@ -101,7 +102,7 @@ Tangents tangents(const V3d& normal, const V3d& direction) {
   Tangents t;
   t.across = normal.cross(direction);
   const double length = t.across.length();
-  // The direction is zero, or parallel to the normal up to rounding.
+  // The direction is 0 or, within rounding, parallel to the normal.
   if (!(length > 1e-12 * direction.length())) {
     t.given = false;
     frame(normal, t.along, t.across);

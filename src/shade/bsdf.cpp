@@ -22,7 +22,7 @@ constexpr double kBelowOne = 1 - 0x1p-53;
 
 // ---- colour
 
-// RADIANCE's primaries, chromaticities x, y; white is equal energy, X = Y = Z.
+// RADIANCE's primaries (chromaticities x, y); its white is equal energy, X = Y = Z.
 constexpr double kPrimaries[3][2] = {{.640, .330}, {.290, .600}, {.150, .060}};
 
 M33d rgbFromXyz() {
@@ -38,8 +38,8 @@ M33d rgbFromXyz() {
   return primaries.inverse();
 }
 
-// The colour space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), in which the minimum of several
-// colours by channel is distorted least. As in RADIANCE, this minimum is the diffuse part of coloured data.
+// The colour space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), which distorts the channel-wise
+// minimum of several colours least. As in RADIANCE, this minimum is the diffuse part of coloured data.
 const M33d kXyzFromSharp(.8156, .3791, -.0123, .0472, .5769, .0167, .1372, .0440, .9955);
 const M33d kSharpFromXyz(1.2694, -.8364, .0297, -.0988, 1.8006, -.0315, -.1706, .0357, 1.0018);
 
@@ -56,9 +56,8 @@ Tristimulus ofChromaticity(double y, double u, double v) {
 
 // ---- the diffuse part
 
-// 1/sr. A diffuse part below the first value is not separated from the data, because a diffuse calculation
-// would not be worth its cost. In grey trees, a diffuse part from the second value on is not separated
-// either.
+// Limits (1/sr) of the diffuse part that is separated from the data. Below the first value, a diffuse
+// calculation would not be worth its cost. The second value is an upper limit for grey trees only.
 constexpr double kLeastDiffuse = .01 / kPi;
 constexpr double kMostDiffuseTree = 1.5 / kPi;
 
@@ -112,7 +111,7 @@ struct Rings {
     return *std::find_if(rings.begin(), rings.end(), [&](const Ring& r) { return cell < r.first + r.cells; });
   }
 
-  // Empty beyond the last ring.
+  // The cell of a direction; empty beyond the last ring.
   std::optional<size_t> cellOf(double x, double y, double z) const {
     for (const Ring& ring : rings) {
       if (z <= ring.upperCosine) continue;
@@ -208,7 +207,7 @@ class MatrixScattering final : public DirectedScattering {
   }
 
  private:
-  // For each row, the cumulative sums of albedo over the cells.
+  // Cumulative sums of albedo over the cells of each row.
   class Table {
    public:
     Table() = default;
@@ -225,7 +224,7 @@ class MatrixScattering final : public DirectedScattering {
       }
     }
     double total(size_t row) const { return sums_[(row + 1) * cells_ - 1]; }
-    // The cell that a uniform u selects. Sets u to the uniform number that remains for within the cell.
+    // Selects a cell by a uniform u, and sets u to a uniform number for use within the cell.
     size_t sample(size_t row, double& u) const {
       const auto sums = std::span(sums_).subspan(row * cells_, cells_);
       const double target = u * sums.back();
@@ -243,8 +242,8 @@ class MatrixScattering final : public DirectedScattering {
     std::vector<float> sums_;
   };
 
-  // The data give the incident direction as the one in which the light travels: light that is transmitted
-  // without deflection has the same azimuth on both sides.
+  // The incident direction of the data is that in which light travels: undeflected transmitted light has the
+  // same azimuth on both sides.
   std::optional<size_t> incidentCell(const V3d& d) const { return in_.cellOf(-d.x, -d.y, std::abs(d.z)); }
   std::optional<size_t> scatteredCell(const V3d& d) const { return out_.cellOf(d.x, d.y, std::abs(d.z)); }
 
@@ -256,7 +255,7 @@ class MatrixScattering final : public DirectedScattering {
 // ---- tensor trees
 
 // An area-preserving map from the unit disk to the square [0, 1)^2. Applied to x and y of unit vectors, it
-// maps equal projected solid angles to equal areas.
+// preserves ratios of projected solid angles.
 std::array<double, 2> squareOfDisk(double x, double y) {
   const double r = std::sqrt(x * x + y * y);
   double a = 0, b = 0;
@@ -290,7 +289,7 @@ struct Leaf {
   int depth = 0;
 };
 
-// The leaf of a tree that contains the point. p: as many coordinates in [0, 1) as the tree's rank.
+// The leaf that contains a point. p: as many coordinates in [0, 1) as the rank of the tree.
 Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
   Leaf leaf;
   while (const uint32_t children = tree.nodes[leaf.node].children) {
@@ -309,13 +308,14 @@ Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
 }
 
 // Means of a tree over two of its dimensions, as functions of the others. Each branch of the tree gets a tree
-// over those others whose leaves are means. Together these have about a third as many nodes as the tree has
-// leaves, because each level needs a quarter of the nodes of the level below. The alternative, cumulative
-// sums for each cell of view directions that are made on first use, needs a lock and a limit on memory.
+// over the other dimensions, with means as leaves. In total they have about a third as many nodes as the tree
+// has leaves, because each level needs a quarter of the nodes of the level below. Rejected alternative:
+// cumulative sums for each cell of view directions, made at first use, because they need a lock and a limit
+// on memory.
 class Means {
  public:
   Means() = default;
-  // drawFirst: whether directions are drawn in the first two dimensions or in the last two.
+  // drawFirst: whether directions are sampled in the first two dimensions, otherwise in the last two.
   Means(const rad::TensorTree& tree, int rank, bool drawFirst)
       : tree_(&tree), rank_(rank), given_(rank - 2), drawFirst_(drawFirst) {
     roots_.resize(tree.nodes.size() >> rank);
@@ -361,7 +361,7 @@ class Means {
     uint32_t children = 0;
     uint8_t finest = 0, coarsest = 0;
   };
-  // A constant, or a node of these trees.
+  // A constant mean, or a node of these trees.
   struct Reference {
     uint32_t node = 0;  // 0: a constant; the first node is unused
     float value = 0;
@@ -384,7 +384,8 @@ class Means {
     return quadrant;
   }
 
-  // Selects the second half with probability proportional to its mass. Afterwards u is uniform again.
+  // Selects the second half with probability proportional to its mass. Rescales u, which is then uniform
+  // again.
   static bool choose(double first, double second, double& u) {
     const double target = u * (first + second);
     const bool taken = target >= first && second > 0;
@@ -568,8 +569,7 @@ class TreeScattering final : public DirectedScattering {
     return sum / (1U << rank_);
   }
 
-  // Cosine and sine of the azimuth from which isotropic data are measured: the azimuth of light that arrives
-  // from the view and is not deflected.
+  // Cosine and sine of the reference azimuth of isotropic data: that of undeflected light from the view.
   static std::array<double, 2> azimuth(const V3d& view) {
     const double r = std::sqrt(view.x * view.x + view.y * view.y);
     if (!(r > 0)) return {1, 0};
@@ -591,7 +591,7 @@ class TreeScattering final : public DirectedScattering {
     return {i[0], i[1], o[0], o[1]};
   }
 
-  // Null if the directions of the data cannot be exchanged.
+  // Null if the directions of the data would have to be exchanged but cannot be.
   const Means* meansFor(const V3d& view) const {
     if (!turned(view)) return &straight_;
     return turned_ ? &*turned_ : nullptr;
@@ -676,8 +676,9 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
   const DirectedScattering* part = transmission(front);
   if (!part) return {};
 
-  // Probes cells around the undeflected direction: on the axes and diagonals of a 9 by 9 grid with a spacing
-  // of 0.6 cells, without its corners. The criteria for a peak and its surroundings are RADIANCE's.
+  // Probes cells around the undeflected direction, at points of a 9 by 9 grid: on its axes and diagonals
+  // except the corners, at a spacing of .6 cells. The criteria for a peak and its surroundings are
+  // RADIANCE's.
   struct Probe {
     double luminance;
     DirectedScattering::Cell cell;

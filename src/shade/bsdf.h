@@ -2,10 +2,9 @@
 // Bidirectional scattering distribution functions from XML files: evaluation and sampling.
 //
 // Directions are unit vectors that point away from the surface, in its local frame: z is its normal, so that
-// z > 0 is the front, and y is "up". Scattering is a function of a view and another direction. The data give
-// scattering by the direction of the incident light; the view is looked up as that direction. If the data
-// lack the transmission for light from the side of the view, the transmission from the other side is used
-// with the two directions exchanged (Helmholtz reciprocity).
+// z > 0 is the front, and y is "up". Scattering depends on the view and another direction. The view is looked
+// up as the direction of incident light in the data. If the data lack transmission for light from the side of
+// the view, the transmission from the other side is used with exchanged directions (Helmholtz reciprocity).
 //
 // Sources: WINDOW 6's Klems matrices; Ward et al., LBNL-6535E, 2012 (tensor trees); Shirley and Chiu, "A low
 // distortion map between disk and square", JGT 2/3, 1997; RADIANCE's notes on BSDF directions.
@@ -24,37 +23,37 @@ namespace rsphere {
 struct Tristimulus {
   double x = 0, y = 0, z = 0;
 };
-// For RADIANCE's primaries and white point. Colours outside their gamut are mixed with grey of the same
-// luminance until no channel is negative.
+// Converts to RADIANCE's primaries and white point. Colours outside their gamut are mixed with grey of the
+// same luminance until no channel is negative.
 Color rgbOf(const Tristimulus& c);
 
-// One of the four components of a file, without its diffuse part, which is the same for all directions.
+// One of the four components of a BSDF file, without its diffuse part.
 class DirectedScattering {
  public:
-  // incidentFront, scatteredFront: the sides that its data are for.
+  // incidentFront, scatteredFront: whether the light arrives and leaves at the front.
   DirectedScattering(bool incidentFront, bool scatteredFront)
       : incidentFront_(incidentFront), scatteredFront_(scatteredFront) {}
   virtual ~DirectedScattering() = default;
 
   bool transmits() const { return incidentFront_ != scatteredFront_; }
   bool incidentFront() const { return incidentFront_; }
-  // Whether a view on this side needs the data with the directions exchanged.
+  // Whether views on this side use the data with exchanged directions.
   bool turned(const V3d& view) const { return transmits() && (view.z > 0) != incidentFront_; }
 
-  // A cell of the data: its value, which is constant over the cell and excludes the diffuse part; its
-  // projected solid angle (sr), the smaller of those for the two directions; and its number.
+  // A cell of the data: its number; its value, without the diffuse part; and its projected solid angle (sr),
+  // the smaller one of those for the two directions.
   struct Cell {
     Tristimulus value;  // 1/sr
     double projectedSolidAngle = 0;
     uint64_t number = 0;
   };
-  // The value is 0 if either direction lies outside the angles of the data.
+  // The value is 0 if one of the directions is outside the range of the data.
   virtual Cell cell(const V3d& view, const V3d& other) const = 0;
 
-  // The share of the luminance that is scattered, summed over all directions.
+  // The fraction of the luminance that is scattered into all directions together.
   virtual double albedo(const V3d& view) const = 0;
-  // A direction whose density by projected solid angle is proportional to luminance, for uniform u1, u2 in
-  // [0, 1). REQUIRES an albedo above 0.
+  // Samples a direction for uniform u1, u2 in [0, 1). Its density by projected solid angle is proportional to
+  // luminance. REQUIRES an albedo above 0.
   virtual V3d sample(const V3d& view, double u1, double u2) const = 0;
 
   // Projected solid angles (sr) of the cells for a view.
@@ -62,11 +61,11 @@ class DirectedScattering {
     double finest = 0, coarsest = 0;  // 0: no data
   };
   virtual Resolution resolution(const V3d& view) const = 0;
-  // Prepares albedo() and sample() for views from the side without data of its own, for which the directions
-  // are exchanged (see turned()). Returns false if the data do not determine the scattering there, which is
-  // so for isotropic trees, because they store one angle less; the albedo is then 0 for views from that side.
+  // Prepares albedo() and sample() for views from the side without data, for which directions are exchanged
+  // (see turned()). Returns false if the data do not determine the scattering there; the albedo is then 0 for
+  // these views. That is so for isotropic trees, because they store one angle less.
   virtual bool prepareTurned() = 0;
-  // The projected solid angle (sr) of the smallest of all cells, and the largest albedo of all views.
+  // The projected solid angle (sr) of the smallest cell, and the largest albedo of any view.
   double finestCell() const { return finestCell_; }
   double largestAlbedo() const { return largestAlbedo_; }
 
@@ -75,15 +74,15 @@ class DirectedScattering {
   double finestCell_ = 0, largestAlbedo_ = 0;
 };
 
-// The data of a file, prepared for sampling. Immutable: any number of threads may use it at once.
+// The data of a file, prepared for sampling. Immutable: threads may use it at the same time.
 class BsdfData {
  public:
   // name: of the file, for messages. Warns if the data scatter more light than arrives, or if they do not
   // determine the transmission from one side.
   BsdfData(const rad::BsdfFile& file, std::string_view name, const rad::Warn& warn);
 
-  // The share of light that is scattered diffusely, by the side of the view: the smallest value of the data,
-  // if that is more than 1% of the light, otherwise 0. The rest is directed.
+  // The fraction of light that is scattered diffusely, by the side of the view: the smallest value of the
+  // data, or 0 if it is less than 1% of the light. All other scattering is directed.
   const Color& diffuseReflectance(bool front) const { return diffuse_[front ? 0 : 1]; }
   const Color& diffuseTransmittance(bool front) const { return diffuse_[front ? 2 : 3]; }
 
@@ -100,12 +99,12 @@ class BsdfData {
     return front == (other.z > 0) ? reflection(front) : transmission(front);
   }
 
-  // The finest and the coarsest cells for a view, in reflection and transmission together; pi if there is no
-  // directed part.
+  // The projected solid angles of the finest and the coarsest cells for a view, in reflection and
+  // transmission together; pi if there is no directed part.
   DirectedScattering::Resolution resolution(const V3d& view) const;
 
-  // The share of light that is transmitted without deflection, and the scattering (1/sr) around that
-  // direction; black if the data have no narrow peak there. Neither contains the diffuse part.
+  // The fraction of light that is transmitted undeflected, and the scattering (1/sr) around that direction;
+  // black if the data have no narrow peak there. Both exclude the diffuse part.
   struct Through {
     Color peak{0, 0, 0}, around{0, 0, 0};
   };

@@ -31,7 +31,7 @@ BsdfScattering::BsdfScattering(const BsdfMaterial& material, const BsdfData& dat
       spread_(options.specularSampling) {
   const bool front = at.front;
   view_ = frame.local(-at.direction);
-  // Rounding must not turn a view along the surface to the other side.
+  // Rounding must not move a grazing view to the other side.
   view_.z = front ? std::max(view_.z, kNegligible) : std::min(view_.z, -kNegligible);
   across_ = (front ? -thickness : thickness) * at.normal;
   if (material.aperture && maxChannel(at.pattern) > kNegligible) {
@@ -58,8 +58,8 @@ V3d BsdfScattering::jittered(const V3d& view, double projectedSolidAngle, Random
   return v.normalized();
 }
 
-// If the albedo of the directed part is not above the specular threshold (-st), it is added to the indirect
-// light instead of being sampled.
+// If the albedo of the directed part is at most the specular threshold (-st), it is not sampled but added to
+// the indirect light.
 std::optional<Lobe> BsdfScattering::lobe(Component component, Random& random) {
   const bool transmits = component == Component::transmitted;
   const DirectedScattering* directed = part(component);
@@ -78,7 +78,7 @@ std::optional<Lobe> BsdfScattering::lobe(Component component, Random& random) {
 LobeSample BsdfScattering::draw(Component component, int i, int n, Random& random) const {
   const DirectedScattering& directed = *part(component);
   const bool transmits = component == Component::transmitted;
-  // If -ss is below 1, there is a single sample, and it is drawn nearer to the middle of the lobe.
+  // With -ss below 1 there is a single sample, drawn nearer to the middle of the lobe.
   const auto place = [&](double u) { return spread_ < 1 ? .5 + spread_ * (u - .5) : u; };
   const V3d view = jittered(view_, resolution_.finest, random);
   const double u1 = place((i + random.uniform()) / n), u2 = place(random.uniform());
@@ -105,23 +105,23 @@ Coefficient BsdfScattering::coefficient(Component component, const V3d& toSource
   return Coefficient((even + uneven) * (std::abs(c) * solidAngle));
 }
 
-// The BSDF (1/sr) without its diffuse part for light from a source, averaged over views within a cell.
+// The BSDF (1/sr) without its diffuse part, for light from a source, averaged over views within a cell.
 Color BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& random) const {
   const V3d other = frame_.local(toSource);
   const DirectedScattering* part = data_->between(view_, other);
   if (!part) return Color(0, 0, 0);
   if (part->transmits() && maxChannel(through_.peak) > kNegligible) {
-    // The peak of straight transmission is left to the ray that is followed through the surface. Only the
-    // scattering around the peak remains within the width of the source plus that of the peak. The widths are
-    // the diameters of circles of 2.5 times their areas.
+    // The peak of undeflected transmission is left to the ray that continues through the surface. Within the
+    // sum of the widths of the source and the peak, only the scattering around the peak is returned. Widths
+    // are the diameters of circles of 2.5 times the areas.
     const double dx = other.x + view_.x, dy = other.y + view_.y;
     const double together = std::sqrt(solidAngle * std::abs(other.z)) + std::sqrt(part->finestCell());
     if (dx * dx + dy * dy <= 2.5 * 4 / kPi * together * together) return through_.around;
   }
   const double size = part->cell(view_, other).projectedSolidAngle;
   const int draws = size > 0 ? views_ : 1;
-  // Cells smaller than this share of the cell of the view belong to a peak, whose light must not be spread
-  // over a neighbouring cell.
+  // Cells smaller than this fraction of the view's cell belong to a peak, whose light must not be spread over
+  // a neighbouring cell.
   constexpr double kMuchFiner = .12;
   Color sum(0, 0, 0);
   int counted = 0;

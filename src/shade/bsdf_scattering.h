@@ -1,16 +1,16 @@
 #pragma once
 // Scattering by a surface whose BSDF is given by an XML file.
 //
-// Source: RADIANCE reference manual, "BSDF", "aBSDF". Unlike in the original, transmitted indirect rays also
-// start behind the thickness, as the manual says. The data are constant over cells of directions, which may
-// be wide. The view is therefore shifted at random by up to half the size of a cell, or less if -ss is below
-// 1, so that no cell edges are visible.
+// Source: RADIANCE reference manual, "BSDF", "aBSDF". As the manual says, but unlike in the original,
+// transmitted indirect rays also start behind the thickness. The data are constant over cells of directions,
+// which may be wide. To hide cell edges, the view is shifted at random by up to half the size of a cell, or
+// less if -ss is below 1.
 #include "shade/bsdf.h"
 #include "shade/surface_scattering.h"
 
 namespace rsphere {
 
-// The frame of BSDF data at a hit, in the world: z is its normal, on the front, and y is up.
+// The frame of BSDF data at a hit, in world coordinates: z is the normal on the front, and y is up.
 struct BsdfFrame {
   V3d normal{0, 0, 1};  // perturbed, on the side that the ray came from
   V3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
@@ -19,14 +19,14 @@ struct BsdfFrame {
   V3d world(const V3d& d) const { return (d.x * x + d.y * y + d.z * z).normalized(); }
 };
 
-// up: of any length, in the world. Empty if it is parallel to the normal, or 0.
+// up: of any length, in the world. Empty if it is 0 or parallel to the normal.
 std::optional<BsdfFrame> bsdfFrame(const Interaction& at, const V3d& up);
 
-// A model of scattering; see surface_scattering.h for its members.
+// Fulfils the concept ScattersLight (surface_scattering.h).
 class BsdfScattering {
  public:
-  // Keeps a reference to the data. thickness (world units): of the geometry behind the front that the surface
-  // hides; transmitted light passes through it. views: over how many views within a cell the scattering of
+  // Keeps a reference to the data. thickness (world units): of the hidden geometry behind the front;
+  // transmitted light starts behind it. views: number of views within a cell over which the scattering of
   // direct light is averaged.
   BsdfScattering(const BsdfMaterial& material, const BsdfData& data, const Interaction& at,
                  const BsdfFrame& frame, double thickness, int views, const MaterialOptions& options);
@@ -41,8 +41,8 @@ class BsdfScattering {
   }
   const V3d& normal(Component) const { return frame_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
-  // Transmitted light arrives behind the thickness, and so does that of sources behind. Without a thickness,
-  // the direct light of both sides is estimated at the same point, and together.
+  // Transmitted light, also of sources behind the surface, arrives behind the thickness. Without a thickness,
+  // both sides get their direct light at the same point, in a single estimate.
   const V3d& offset(Component component) const {
     return component == Component::reflected ? kNoOffset : across_;
   }
@@ -67,10 +67,10 @@ class BsdfScattering {
   bool thick_;
   int views_;
   double threshold_, spread_;    // -st, -ss
-  V3d view_{0, 0, 1};            // direction that the ray came from, in the frame
-  V3d across_{0, 0, 0};          // from the hit to where transmitted rays start (world units)
-  BsdfData::Through through_{};  // the peak of straight transmission, times the pattern
-  bool showsThrough_ = false;    // whether a ray follows the straight transmission
+  V3d view_{0, 0, 1};            // direction to the ray's origin, in the frame
+  V3d across_{0, 0, 0};          // from the hit to the start of transmitted rays (world units)
+  BsdfData::Through through_{};  // peak of undeflected transmission, times the pattern
+  bool showsThrough_ = false;    // whether a ray follows the undeflected transmission
   SharpPaths sharp_;
   DirectedScattering::Resolution resolution_{};
   Color reflectance_{0, 0, 0}, transmittance_{0, 0, 0};                  // of the diffuse parts

@@ -3,8 +3,8 @@
 // metdata, transdata and BRTDfunc, as pure functions. Source: RADIANCE reference manual, "Material types".
 //
 // As in RADIANCE, the functions are evaluated for light sources only. For indirect light, the directional
-// component is treated as diffuse (plasfunc and the like) or omitted (BRTDfunc). Whether a material conserves
-// energy depends on its functions.
+// component is treated as diffuse (plasfunc and the like) or omitted (BRTDfunc). Energy is conserved only if
+// the functions of the material do so.
 #include <array>
 #include <cmath>
 
@@ -20,22 +20,22 @@ struct FunctionScattering {
   SharpPaths sharp;
   Color diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   Color ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
-  // The factors on the functions' values for sources in front of the surface and behind it. If the factor is
-  // black, the functions are not evaluated.
+  // Factors on the functions' values for sources in front of the surface and behind it. If black, the
+  // functions are not evaluated.
   Color directionalReflection{0, 0, 0}, directionalTransmission{0, 0, 0};
 };
 
 FunctionScattering scatter(const FunctionScatterer& material, const Interaction& at);
 
-// Without the sharp paths, because the functions that define them take this result as input.
+// Returns no sharp paths, because the functions that define them take this result as input.
 FunctionScattering scatter(const BrtdFunction& material, const Interaction& at);
-// The sharp paths of BRTDfunc. coefficient: by channel, the values of the material's functions.
+// The sharp paths of BRTDfunc. coefficient: values of the material's functions, by channel.
 SharpPath sharpTransmission(const FunctionScattering& scattering, const Interaction& at,
                             const std::array<double, 3>& coefficient);
 SharpPath sharpReflection(const FunctionScattering& scattering, const Interaction& at,
                           const std::array<double, 3>& coefficient);
 
-// The share of a source's radiance that is scattered towards the ray's origin; see scattering.h.
+// The fraction of a source's radiance that is scattered towards the ray's origin; see scattering.h.
 // distribution: returns the functions' values (1/sr); it is called at most once.
 template <class Distribution>
 Coefficient directCoefficient(const FunctionScattering& s, const V3d& toSource, double solidAngle,

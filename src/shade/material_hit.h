@@ -1,13 +1,13 @@
 #pragma once
-// The hit of a ray as materials see it. Some values are stored; others are computed only when a material asks
-// for them, because most hits need few of these.
+// The hit of a ray, as seen by materials. Values that most hits do not need are computed only when a material
+// requests them.
 #include "scene/scene.h"
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
 
 namespace rsphere {
 
-// The options that materials depend on; see rtrace(1).
+// The options that affect materials; see rtrace(1).
 struct MaterialOptions {
   bool backFacesVisible = true;    // -bv
   bool sourcesVisible = true;      // -dv
@@ -15,7 +15,7 @@ struct MaterialOptions {
   double specularSampling = 1;     // -ss
   double directJitter = 0;         // -dj
   bool basicRadiance = false;      // radiance over n^2 is transported; see scatter(const Dielectric&, ...)
-  Medium medium{};                 // of the space outside of mist and dielectrics (-me -ma -mg)
+  Medium medium{};                 // of the space outside mist and dielectrics (-me -ma -mg)
 };
 
 // How a ray arrived at a surface.
@@ -24,10 +24,9 @@ struct Arrival {
   double cosine = 1;          // -normal . direction; negative from behind
   double length = 0;          // of the ray (world units)
   double pathLength = 0;      // of its ancestors
-  SurfaceId surface = kNone;  // that it hit
-  // Of a shadow ray: the surface of the light source that it is aimed at, or kNone. atImage: that source is
-  // virtual, and target is the surface of the mirror or prism that produces the image. image: which of a
-  // prism's images.
+  SurfaceId surface = kNone;  // the surface that was hit
+  // For a shadow ray: the surface of the light source at which it is aimed, or kNone. atImage: the source is
+  // virtual, and `target` is the mirror or prism that forms its image. image: number of the image in a prism.
   SurfaceId target = kNone;
   bool atImage = false;
   int image = 0;
@@ -37,7 +36,7 @@ struct Arrival {
   bool isAimedHere() const { return isAimed() && target == surface; }
 };
 
-// What materials need besides the hit. scratch: belongs to one thread.
+// What materials need in addition to the hit. scratch: memory of one thread.
 struct MaterialContext {
   const Scene& scene;
   const SurfaceFunctions& functions;
@@ -47,7 +46,7 @@ struct MaterialContext {
 
 class MaterialHit {
  public:
-  // Keeps a reference to the context. modifiers: the material's own.
+  // Keeps a reference to the context. modifiers: the modifiers of the material.
   MaterialHit(const Arrival& arrival, ModifierId modifiers, MaterialContext& context)
       : arrival_(arrival), context_(context), modifiers_(modifiers) {}
 
@@ -58,30 +57,30 @@ class MaterialHit {
   FunctionScratch& scratch() const { return context_.scratch; }
 
   ModifierId modifiers() const { return modifiers_; }
-  // Whether the ray passes because it hit a back face, and these are invisible (-bv-).
+  // Whether the ray passes through, because it hit an invisible back face (-bv-).
   bool passesBack() const { return arrival_.cosine < 0 && !options().backFacesVisible; }
 
-  // Applies the material's own modifiers, whose patterns and textures interaction() then contains. Throws
+  // Applies the modifiers of the material, so that interaction() contains their patterns and textures. Throws
   // rad::Error if one of them is a material.
   void modify() {
     if (modifiers_ != kNone) applyModifiers();
   }
-  // Turns a hit from behind into a hit from the front, also for point() and the tracer.
+  // Turns a hit from behind into a hit from the front, including point() and the tracer's record of the hit.
   void turnRound() {
     if (arrival_.cosine < 0) turnToFront();
   }
   virtual Interaction interaction() const = 0;
-  // The factor of the patterns that were applied.
+  // The factor of all patterns applied.
   virtual const Color& pattern() const = 0;
-  // The hit with the patterns and textures of a chain of modifiers (kNone: an empty chain) in addition to
-  // those that modify() has applied. Does not change the hit itself.
+  // The hit with the patterns and textures of a chain of modifiers (kNone: an empty chain), in addition to
+  // those applied by modify(). Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
   virtual FunctionPoint point() const = 0;
   // The medium that the ray travels through.
   virtual const Medium& medium() const = 0;
-  // The direction (unit) to the light source whose image the ray is aimed at. REQUIRES Arrival::atImage.
+  // The direction (unit) to the light source at whose image the ray is aimed. REQUIRES Arrival::atImage.
   virtual V3d towardsSource() const = 0;
-  // The number of samples for this ray, if a ray of weight 1 takes `wanted` of them.
+  // The number of samples for this ray, if `wanted` is the number for a ray of weight 1.
   virtual int samplesOf(double wanted) const = 0;
 
  protected:

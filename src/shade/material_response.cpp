@@ -14,7 +14,7 @@ bool beyondReach(const Glow* glow, double distance) {
 }
 
 // Whether an indirect or specular sample hit the front of a source whose light next-event estimation already
-// includes, so that it must not be added again.
+// includes: it must not be added a second time.
 bool countedByDirect(const Arrival& a, const Glow* glow = nullptr) {
   return (a.kinds & (kAmbient | kSpecular)) && !a.isShadow() && a.cosine >= 0 && !beyondReach(glow, a.length);
 }
@@ -48,7 +48,7 @@ Interaction modified(MaterialHit& hit) {
   return hit.interaction();
 }
 
-// The functions of BRTDfunc and the like get the normal and the colour of the scattering.
+// BRTDfunc and similar functions receive the normal and the colour of the scattering.
 FunctionPoint pointOf(const MaterialHit& hit, const FunctionScattering& s) {
   FunctionPoint point = hit.point();
   point.perturbedNormal = s.normal;
@@ -57,7 +57,7 @@ FunctionPoint pointOf(const MaterialHit& hit, const FunctionScattering& s) {
   return point;
 }
 
-// The functions of a component of WGMDfunc get the normal as perturbed by the component's modifiers.
+// The functions of a component of WGMDfunc receive the normal perturbed by the component's modifiers.
 FunctionPoint pointOf(const MaterialHit& hit, const Interaction& at) {
   FunctionPoint point = hit.point();
   point.perturbedCosine = at.cosine;
@@ -70,8 +70,8 @@ V3d orientation(ModifierId material, MaterialHit& hit, const FunctionPoint& poin
   return hit.functions().orientation(material, point, hit.scratch());
 }
 
-// The interaction of one component of WGMDfunc. named: empty if it has the modifiers of the material, whose
-// interaction is `inherited`.
+// The interaction of one component of WGMDfunc. named: empty if the component has the material's modifiers,
+// whose interaction is `inherited`.
 Interaction componentAt(const MaterialHit& hit, const std::optional<ModifierId>& named,
                         const Interaction& inherited) {
   return named ? hit.interactionAfter(*named) : inherited;
@@ -148,7 +148,7 @@ EllipticResponse response(const WgmdFunction& material, MaterialHit& hit) {
     const Interaction at = componentAt(hit, material.transmitted.modifier, own);
     transmitted = componentOf(at, functions.transmission(f, pointOf(hit, at), hit.scratch()));
   }
-  // Shadow rays pass only if the transmission is sharp.
+  // Shadow rays pass only if transmission is sharp.
   if (shadow && transmitted.roughnessAlong > kNegligible && transmitted.roughnessAcross > kNegligible)
     return Absorbs{};
   WgmdComponent reflected;
@@ -170,8 +170,8 @@ std::variant<Absorbs, Passes, BsdfScattering> response(const BsdfMaterial& mater
   const ModifierId f = material.functions;
   double thickness = material.proxy ? functions.thickness(f, hit.point(), hit.scratch()) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
-  // The geometry behind a proxy is traced itself by direct views and shadow rays, and by all rays that come
-  // from its side.
+  // Direct views, shadow rays, and all rays from the side of the hidden geometry trace this geometry itself
+  // instead of its proxy.
   if (thickness != 0 &&
       (a.isShadow() || !(a.kinds & (kSpecular | kAmbient)) || (thickness > 0) != hit.interaction().front))
     return Passes{};
@@ -210,7 +210,7 @@ std::variant<Absorbs, Passes, Alternate, ReflectsSharply, Relays> response(const
   const Arrival& a = hit.arrival();
   if (material.alternate.kind != Alternate::Kind::none && !a.isAimedHere()) {
     // An indirect ray that hits the front is reflected by the mirror and not shaded with the alternate
-    // material, because the light along this path is mirrored too. Transparent alternates are an exception.
+    // material, because light along this path is mirrored too. Transparent alternates are an exception.
     const bool free = a.cosine < 0 || !(a.kinds & (kAmbient | kSpecular));
     const auto transparent = [&] {
       const Scene& scene = hit.scene();
@@ -293,7 +293,7 @@ SourceResponse response(const Illum& material, MaterialHit& hit) {
   if (!scene.importance && countedByDirect(a)) return Absorbs{};
   if (a.isAimedHere() && !a.atImage) return emission(material.radiance, hit);
   if (a.isAimed() && !a.atImage && a.cosine > 0) {
-    // This illum already represents the light of any illum or glow behind it.
+    // The radiance of this illum already includes the light of any illum or glow behind it.
     const Material* other = scene.materialOf(scene.surfaces[a.target]);
     if (!scene.importance && other &&
         (std::holds_alternative<Illum>(*other) || std::holds_alternative<Glow>(*other)))

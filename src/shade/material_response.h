@@ -1,5 +1,5 @@
 #pragma once
-// How each material responds to a ray that hits it, as values: nothing is traced here. The return type of
+// The response of each material to a ray that hits it, as a value: nothing is traced here. The return type of
 // each overload of response() lists the possible outcomes for a material, and the tracer handles each of
 // them. A new material does not compile until it has an overload.
 #include <variant>
@@ -14,7 +14,7 @@ namespace rsphere {
 struct Absorbs {};
 // The ray continues straight on, as if nothing were there.
 struct Passes {};
-// The surface emits radiance (W/sr/m2) towards the ray; patterns are included.
+// The surface emits radiance (W/sr/m2) towards the ray's origin, with patterns applied.
 struct Emits {
   Radiance radiance;
 };
@@ -24,8 +24,8 @@ struct ReflectsSharply {
   ReflectsSharply(const M& material, const Interaction& at) : scattering(scatter(material, at)) {}
   Scattering scattering;
 };
-// Sharp reflection and refraction at a boundary between media. The boundary determines the medium that the
-// ray has travelled through (Scattering::medium), which replaces the one that the ray carries.
+// Sharp reflection and refraction at a boundary between media. The boundary determines the medium through
+// which the ray arrived (Scattering::medium), which replaces the medium recorded in the ray.
 struct Boundary {
   Scattering scattering;
 };
@@ -33,7 +33,7 @@ struct Boundary {
 struct Redirects {
   SharpPaths paths;
 };
-// A shadow ray has reached the image that it was aimed at, and continues from there to the real source.
+// A shadow ray has reached the image at which it was aimed, and continues from there to the real source.
 struct Relays {
   SharpPath path;
 };
@@ -43,23 +43,23 @@ struct CrossesMist {
   Color extinction;
   bool enters;
 };
-// The ray enters or leaves antimatter. clips: the surfaces that it cuts away (Surface::clip).
+// The ray enters or leaves antimatter. clips: bits of the surfaces that it removes (Surface::clip).
 struct CrossesAntimatter {
   uint64_t clips;
   Alternate cut;
   bool enters;
 };
-// Alternate: the surface is shaded with another modifier, or passed.
+// The outcome Alternate: the surface is shaded with another modifier, or the ray passes.
 
 using DiffusingResponse = std::variant<Absorbs, Passes, RoundScattering>;
 using EllipticResponse = std::variant<Absorbs, Passes, EllipticScattering>;
 using PaneResponse = std::variant<Passes, ReflectsSharply>;
 using SourceResponse = std::variant<Absorbs, Passes, Emits, Alternate>;
 
-// Large results are constructed in place. Copying values that were just written stalls the processor, and
-// took up to a tenth of the time of a ray through glass. Each may apply modifiers to the hit and turn it
-// round (MaterialHit). They throw rad::Error as SurfaceFunctions does, and if the material is modified by
-// another material.
+// All response() functions may apply modifiers to the hit and turn it round (MaterialHit). They throw
+// rad::Error like SurfaceFunctions, and if a material modifies the material. Large results are constructed in
+// place, because copying values that were just written stalls the processor: it took up to a tenth of the
+// time of a ray through glass.
 DiffusingResponse response(const Opaque& material, MaterialHit& hit);
 DiffusingResponse response(const Trans& material, MaterialHit& hit);
 EllipticResponse response(const Anisotropic& material, MaterialHit& hit);
@@ -82,7 +82,7 @@ SourceResponse response(const Illum& material, MaterialHit& hit);
 SourceResponse response(const Glow& material, MaterialHit& hit);
 SourceResponse response(const Spotlight& material, MaterialHit& hit);
 
-// A goal's emission of importance. sampled: next-event estimation samples the goal.
+// The emission of importance by a goal. sampled: whether next-event estimation samples the goal.
 SourceResponse goalResponse(const Radiance& importance, bool sampled, MaterialHit& hit);
 
 }  // namespace rsphere

@@ -20,11 +20,11 @@
 namespace rsphere {
 namespace {
 
-// The order of the pixels in the file: the numbers of rows and columns, and their places in the picture.
+// The order of pixels in the file: numbers of rows and columns, and their orientation in the picture.
 struct Layout {
   size_t rows = 0, columns = 0;
-  bool columnsAlongX = true;                  // otherwise each row of the file is a column of the picture
-  bool rowsFall = true, columnsFall = false;  // whether they run against the direction of their axis
+  bool columnsAlongX = true;                  // otherwise a row of the file is a column of the picture
+  bool rowsFall = true, columnsFall = false;  // whether they run opposite to their axis
 };
 
 struct Header {
@@ -39,8 +39,8 @@ struct Header {
   throw rad::Error(fmt::format("{}: bad picture file: {}", path, why));
 }
 
-// The bytes of a file one after the other. Regular files are read in blocks, because the largest pictures
-// have gigabytes; others, whose size is unknown beforehand, are read as a whole.
+// Reads the bytes of a file in sequence. Regular files are read in blocks, because the largest pictures have
+// gigabytes. Other files, whose size is unknown, are read as a whole.
 class Bytes {
  public:
   explicit Bytes(const std::string& path) : path_(path), file_(path), descriptor_(file_.descriptor()) {
@@ -60,24 +60,24 @@ class Bytes {
   Bytes& operator=(const Bytes&) = delete;
 
   const std::string& path() const { return path_; }
-  // The number of bytes that are left.
+  // The number of bytes not yet taken.
   size_t left() const { return static_cast<size_t>(end_ - next_) + unread_; }
 
   uint8_t next() { return static_cast<uint8_t>(take(1)[0]); }
-  // The next bytes, at most this many and at least one. They last until more are asked for.
+  // Takes the next bytes, at most this many and at least one. They are valid until the next call.
   std::string_view take(size_t most) {
     if (next_ == end_ && !readOn()) bad(path_, "it ends too early");
     const std::string_view taken(next_, std::min(static_cast<size_t>(end_ - next_), most));
     next_ += taken.size();
     return taken;
   }
-  // The next bytes, which are left to be read; fewer than this many only at the end of the file.
+  // Looks at the next bytes without taking them; fewer than `count` only at the end of the file.
   std::string_view ahead(size_t count) {
     while (static_cast<size_t>(end_ - next_) < count && readOn()) {
     }
     return {next_, std::min(static_cast<size_t>(end_ - next_), count)};
   }
-  // The next line without its end; empty if the file ends before the line.
+  // The next line without its line end; empty if the file ends first.
   std::optional<std::string> line() {
     std::string text;
     while (!ahead(1).empty()) {
@@ -107,10 +107,10 @@ class Bytes {
   std::string block_;
   const char* next_;
   const char* end_;
-  size_t unread_ = 0;  // bytes of the file behind the block
+  size_t unread_ = 0;  // bytes of the file after this block
 };
 
-// rtrace reads resolution lines up to this length only. It takes the rest of a longer one for pixels.
+// rtrace reads resolution lines only up to this length, and takes the rest of a longer one for pixels.
 constexpr size_t kLongestResolution = 30;
 constexpr size_t kMostPixels = 65536;  // in a row or a column
 
@@ -122,7 +122,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The whole number that a text begins with; none if it is below 1, and at most kMostPixels + 1.
+// The whole number at the beginning of a text, limited to kMostPixels + 1; none if it is below 1.
 std::optional<size_t> lengthAt(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -133,8 +133,8 @@ std::optional<size_t> lengthAt(std::string_view text) {
   return std::min(length, kMostPixels + 1);
 }
 
-// "-Y 480 +X 640": the axis that changes slowest comes first. As in rtrace, an axis without a sign rises, the
-// last X and the last Y count, and what is between and behind the numbers is ignored.
+// Parses "-Y 480 +X 640": the slowest axis comes first. As in rtrace, an axis without a sign is ascending,
+// the last X and the last Y are used, and text between and after the numbers is ignored.
 std::optional<Layout> readLayout(std::string_view line) {
   const size_t x = line.rfind('X'), y = line.rfind('Y');
   if (x == line.npos || y == line.npos) return std::nullopt;
@@ -156,7 +156,7 @@ T nextNumber(std::string_view& text) {
   return number;
 }
 
-// The part of a header line behind its name; empty if it has another name.
+// The rest of a header line after its name; empty if it has another name.
 std::optional<std::string_view> after(std::string_view name, std::string_view line) {
   if (!line.starts_with(name)) return {};
   return line.substr(name.size());
@@ -206,21 +206,22 @@ Size sizeOf(size_t columns, size_t rows, double aspect) {
   return {std::max(1., width / height), std::max(1., height / width)};
 }
 
-// The pixel of the picture, counted from the lower left row by row, that a row and column of the file give.
+// The pixel of the picture at a row and column of the file. Pixels are numbered row by row from the lower
+// left.
 size_t placeOf(const Layout& layout, size_t row, size_t column) {
   const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
   const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
   return layout.columnsAlongX ? slow * layout.columns + fast : fast * layout.rows + slow;
 }
 
-// Reads the pixels of a file, of four bytes each: three mantissas and their shared exponent.
+// Reads the pixels of a file, of four bytes each: three mantissas and a shared exponent.
 class PixelReader {
  public:
   explicit PixelReader(Bytes& bytes) : bytes_(bytes) {}
 
-  // Reads the next row: either by channel, with run-length coding, or by pixel, with runs of the old code.
-  // Programs write the new code for 8 to 32767 pixels, but its mark means the new code in rows of any length,
-  // as in rtrace.
+  // Reads the next row: channel by channel in the new run-length code, or pixel by pixel in the old one.
+  // Programs write the new code for rows of 8 to 32767 pixels; as in rtrace, its mark is accepted at any
+  // length.
   void read(std::vector<Rgbe>& row) {
     const std::string_view mark = bytes_.ahead(4);
     if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
@@ -249,9 +250,9 @@ class PixelReader {
     }
   }
 
-  // In the old code, (1, 1, 1, n) repeats the preceding pixel n times. In successive ones, n is multiplied by
-  // 1, 256, 256^2 and so on. As in rtrace, a run ends with the row, and at the beginning of a row the
-  // four bytes are a pixel.
+  // In the old code, (1, 1, 1, n) repeats the preceding pixel n times; directly after another such code, n is
+  // multiplied by 256, 256^2 and so on. As in rtrace, a run ends with the row, and at the start of a row
+  // these four bytes are a pixel.
   void readPixels(std::vector<Rgbe>& row) {
     int shift = 0;
     for (size_t at = 0; at < row.size();) {
@@ -274,7 +275,7 @@ class PixelReader {
   Bytes& bytes_;
 };
 
-// The step of the mantissas with an exponent.
+// The step between mantissas, for a given exponent.
 float stepOf(uint8_t exponent) {
   static constexpr std::array<float, 256> steps = [] {
     std::array<float, 256> s{};  // 2^(exponent - 136), but 0 for 0
@@ -286,13 +287,13 @@ float stepOf(uint8_t exponent) {
   return steps[exponent];
 }
 
-// A mantissa is decoded to the middle of its step. Source: RADIANCE file formats, "Picture File Format".
+// A mantissa is decoded as the middle of its step. Source: RADIANCE file formats, "Picture File Format".
 void decode(const Rgbe& pixel, float* rgb) {
   const float step = stepOf(pixel[3]);
   for (size_t i = 0; i < 3; ++i) rgb[i] = (static_cast<float>(pixel[i]) + .5f) * step;
 }
 
-// The two pixels next to a position (in pixels) and their weights, by the rule of rad::DataFile::value().
+// The two pixels beside a position (in pixels) and their weights, by the rule of rad::DataFile::value().
 struct Weights {
   size_t index;
   double first, second;
@@ -315,9 +316,9 @@ Weights weightsAt(double position, size_t count) {
 
 constexpr std::string_view kColors = "32-bit_rle_rgbe", kSpectra = "Radiance_spectra";
 
-// Refuses a picture whose file is too short for it, before memory is taken. The new code packs at most 127
-// values of a channel into two bytes, which is 16 pixels per byte. The old code has no such bound: a uniform
-// row takes 12 bytes. Up to 64 million pixels (256 MB), only the least length of any row is therefore tested.
+// Rejects a picture whose file is too short, before memory is allocated. The new code packs at most 127
+// values of a channel into two bytes, which is 16 pixels per byte. The old code has no such limit: a uniform
+// row takes 12 bytes. Up to 64 million pixels (256 MB), only the shortest possible row is therefore checked.
 void checkLength(const Layout& layout, const Bytes& bytes) {
   constexpr size_t kAnyCode = size_t{1} << 26, kLeastRow = 4;
   const size_t left = bytes.left();
@@ -379,7 +380,8 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   const auto [first, last] = header.wavelengths;
   if (std::any_of(header.formats.begin(), header.formats.end(), [](auto& f) { return f != kSpectra; }))
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
-  constexpr int kLeastComponents = 4;  // three are red, green and blue, which colorpict reads
+  constexpr int kLeastComponents = 4;  // three components are red, green and blue, which are read by
+                                       // colorpict
   if (header.components < kLeastComponents) bad(path, "expected at least 4 components (NCOMP=)");
   const auto isWavelength = [](double nm) { return nm >= 1 && nm <= 1e6; };
   if (!(isWavelength(first) && isWavelength(last) && first != last))

@@ -10,15 +10,15 @@
 
 namespace rsphere {
 
-// A pixel as RADIANCE's pictures have it: three mantissas and their shared exponent.
+// A pixel in RADIANCE's format: three mantissas and a shared exponent.
 using Rgbe = std::array<uint8_t, 4>;
 
-// A picture as patterns and mixtures use it: radiances over a rectangle whose shorter side is 1. Immutable.
+// A picture for patterns and mixtures: radiances over a rectangle whose shorter side is 1. Immutable.
 class Picture {
  public:
   // Reads a RADIANCE picture: RGBE with new, old or no run-length coding, in any of the eight pixel orders,
-  // of up to 65536 rows and columns. Its exposure is not undone. XYZE is refused, as by rtrace. Throws
-  // rad::Error, which begins with the path: Status::input if the file is no such picture or is damaged,
+  // up to 65536 rows and columns. The exposure is not undone. XYZE is rejected, as by rtrace. Throws
+  // rad::Error, which begins with the path: Status::input if the file is damaged or of another kind,
   // Status::system if it cannot be read.
   static Picture read(const std::string& path);
 
@@ -26,9 +26,9 @@ class Picture {
   size_t height() const { return height_; }
 
   // The colour at (x, y), interpolated linearly between pixels. The center of the lower left pixel is at (0,
-  // 0), the centers of the other corner pixels are at the picture's size, and the shorter side, with regard
-  // to PIXASPECT, is 1 (RADIANCE reference manual, "Colorpict"). Outside, the picture is extended like a data
-  // file (rad::DataFile::value).
+  // 0), and the opposite corner pixel at the size of the picture. The shorter side, considering PIXASPECT, is
+  // 1 (RADIANCE reference manual, "Colorpict"). Outside, the picture is extended like a data file
+  // (rad::DataFile::value).
   Color value(double x, double y) const;
 
  private:
@@ -37,17 +37,18 @@ class Picture {
   std::vector<Rgbe> pixels_;  // the lowest row first, each from left to right
 };
 
-// A picture with a spectrum in each pixel, as specpict uses it. Immutable.
+// A picture with a spectrum in each pixel, for specpict. Immutable.
 class SpectralPicture {
  public:
-  // Reads a picture as rtrace -co writes it: FORMAT=Radiance_spectra, NCOMP and WAVELENGTH_SPLITS in its
-  // header, and mantissas with a shared exponent without run-length coding, in the order -Y +X. Other orders
-  // are refused, as by rtrace. Its exposure is not undone. Throws as Picture::read() does.
+  // Reads a picture as written by rtrace -co: with FORMAT=Radiance_spectra, NCOMP and WAVELENGTH_SPLITS in
+  // its header, and mantissas with a shared exponent, without run-length coding, in the order -Y +X. Other
+  // orders are rejected, as by rtrace. The exposure is not undone. Throws like Picture::read().
   static SpectralPicture read(const std::string& path);
 
   size_t width() const { return width_; }
   size_t height() const { return height_; }
-  // The bins of the spectra: their number, and the wavelengths (nm) where the first begins and the last ends.
+  // Number of bins of each spectrum, and the wavelengths (nm) of the beginning of the first and the end of
+  // the last bin.
   size_t components() const { return components_; }
   double first() const { return first_; }
   double last() const { return last_; }
@@ -60,7 +61,7 @@ class SpectralPicture {
   double sizeX_ = 1, sizeY_ = 1;
   size_t components_ = 0;
   double first_ = 0, last_ = 0;
-  std::vector<uint8_t> pixels_;  // as in the file, components and exponent; rows and columns as in Picture
+  std::vector<uint8_t> pixels_;  // components and exponent, as in the file; in the order of Picture::pixels_
 };
 
 }  // namespace rsphere

@@ -9,7 +9,7 @@ namespace rsphere {
 namespace {
 
 // Ward's exponential approximation of Fresnel's equations for a polished surface with a refractive index of
-// about 1.5. The constant makes it 0 at normal incidence. It is used if the given specularity is at least
+// about 1.5. The constant makes it 0 at normal incidence. It applies to specularities of at least
 // kFresnelSpecularity.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - 0.00287989916; }
 constexpr double kFresnelSpecularity = 0.017999;
@@ -18,7 +18,7 @@ V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
   return direction + 2 * cosine * normal;
 }
 
-// Mirrored at the perturbed normal, or at the true normal if the former would lead below the surface.
+// Mirrors at the perturbed normal, or at the true normal if the result would be below the surface.
 V3d safelyMirrored(const Interaction& at, const V3d& normal, double cosine) {
   V3d d = mirrored(at.direction, normal, cosine);
   if (isPerturbed(at) && d.dot(at.normal) <= kNegligible) d = mirrored(at.direction, at.normal, at.cosine);
@@ -28,8 +28,8 @@ V3d safelyMirrored(const Interaction& at, const V3d& normal, double cosine) {
 // The specular reflection of plastic, metal and trans.
 struct Gloss {
   bool polished = false;
-  double fresnel = 0;   // the rise of the specular share towards grazing angles
-  double specular = 0;  // the specular share, including the rise
+  double fresnel = 0;   // increase of the specular share towards grazing angles
+  double specular = 0;  // the specular share, including this increase
 };
 
 Gloss gloss(double specularity, double roughness, double cosine) {
@@ -66,7 +66,7 @@ void addReflection(Scattering& s, const Interaction& at, const Gloss& g, const C
 }
 
 // Fresnel's reflectance for unpolarised light; 1 for total reflection. ratio: the refractive index on the
-// ray's side over that beyond the boundary. Sets cosineBeyond, the cosine of the refracted ray.
+// ray's side divided by that on the other side. Sets cosineBeyond, the cosine of the refracted ray.
 double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
   const double square = 1 - ratio * ratio * (1 - cosine * cosine);
   if (square < kNegligible) return 1;
@@ -76,20 +76,20 @@ double fresnelReflectance(double cosine, double ratio, double& cosineBeyond) {
   return (s * s + p * p) / 2;
 }
 
-// The extinction per unit length for a transmission per unit length, limited to 0 to 100: no medium is
-// completely black, and none amplifies light.
+// Converts transmission per unit length to extinction per unit length. It is limited to 0 to 100: no medium
+// is completely black, and none amplifies light.
 Color extinctionOf(const Color& transmission, const Color& pattern) {
   Color e = transmission * pattern;
   e.transform([](double t) { return t < 1e-40 ? 100 : t >= 1 ? 0 : -std::log(t); });
-  // The means of the extinctions, so that they are 0 only where all bands are: the pattern of a band may
-  // exceed 1.
+  // Each of the three channels is the mean of the extinctions of its bands, not the extinction of the mean
+  // transmission. It is then 0 only if that of every band is, although the pattern of a band may exceed 1.
   if (e.bands()) [[unlikely]]
     e = Color(e.bands());
   return e;
 }
 
-// Reflection and refraction at a boundary. inner, outer: the refractive index and the medium behind the
-// surface and in front of it.
+// Reflection and refraction at a boundary. inner, outer: refractive index behind the surface and in front of
+// it, each followed by the medium there.
 Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& innerMedium, double outer,
                              const Medium& outerMedium, bool basic) {
   Scattering s;
@@ -261,7 +261,7 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
 }
 
 namespace {
-// The reflected lobe towards a source, per sr and share, without the cosine.
+// The reflected lobe towards a source, per sr and share, without the cosine factor.
 double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSource, double alpha2) {
   const V3d half = toSource - at.direction;
   const double along = half.dot(s.normal);
@@ -270,8 +270,8 @@ double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSo
   return std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
 }
 
-// The two halves of directCoefficient(), by the side of the surface that the source is on;
-// enters: the part of the light that is left to diffuse scattering.
+// The two branches of directCoefficient(), for sources in front of the surface and behind it. enters: the
+// fraction of light that remains for diffuse scattering.
 Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
                                  double cosine, double enters, double solidAngle, double sourceJitter) {
   Coefficient sum(s.diffuseReflection * (enters * cosine * solidAngle * kPerPi));
@@ -308,7 +308,7 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
 }
 
 namespace {
-// The distance d of a lobe's sample from its middle in the tangent plane: the inverse of exp(-(d/alpha)^2).
+// Distance of a lobe's sample from its middle, in the tangent plane: inverts exp(-(d/alpha)^2).
 double lobeRadius(double alpha2, double spread, double u) {
   const double v = 1 - std::min(spread, 1.) * u;
   return v > kNegligible ? std::sqrt(-alpha2 * std::log(v)) : 1;
@@ -321,7 +321,7 @@ double sampleReflection(const Scattering& s, const Interaction& at, double sprea
   frame(s.normal, x, y);
   const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
   const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
-  // The mirror image of a unit vector is a unit vector already.
+  // The mirror image of a unit vector has unit length.
   direction = at.direction - 2 * half.dot(at.direction) / (1 + radius * radius) * half;
   const double out = direction.dot(s.normal);
   if (out <= kNegligible || direction.dot(at.normal) <= kNegligible) return 0;

@@ -43,7 +43,7 @@ std::string folderProblem(std::string_view name, std::string_view kind) {
   return fmt::format("\"{}\" is a folder, expected a {} file", rad::printableName(name), kind);
 }
 
-// Coordinates that are not numbers are a fault; data are 0 infinitely far away.
+// Coordinates that are NaN are an error. Infinite ones are allowed: data are 0 there.
 void checkCoordinates(std::span<const double> coordinates, calc::State& state) {
   if (std::any_of(coordinates.begin(), coordinates.end(), [](double c) { return std::isnan(c); }))
     state.faults |= calc::kDomainError;
@@ -54,21 +54,22 @@ double between(double first, double last, size_t i, size_t count) {
   return first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
-// The spectrum of bins whose middles run from first to last. REQUIRES at least two values.
+// A spectrum from values at the middles of its bins, which run from first to last. REQUIRES at least two
+// values.
 Spectrum betweenMiddles(std::span<const double> values, double first, double last) {
   const double half = (last - first) / static_cast<double>(values.size() - 1) / 2;
   return {values, first - half, last + half};
 }
 
-// The color of a spectrum that falls in wavelength, as RADIANCE 6.1 has it: three values are red, green and
-// blue.
+// The color of a spectrum in descending order of wavelength. As in RADIANCE 6.1, three values are red, green
+// and blue.
 Color threeChannels(const Spectrum& spectrum) {
   const auto& v = spectrum.values;
   if (v.size() == 3) return Color(v[0], v[1], v[2]);
   return Color(standardRgb(tristimulusInRadiance(spectrum)));
 }
 
-// The wavelengths (nm) of data along an axis if they are not evenly spaced, otherwise none.
+// The wavelengths (nm) along an axis of data if they are unevenly spaced; otherwise empty.
 std::vector<double> unevenWavelengths(const rad::DataFile& data, size_t axis) {
   const auto divisions = data.unevenDivisions(axis);
   return {divisions.begin(), divisions.end()};
@@ -86,7 +87,7 @@ std::vector<std::string> linesOf(std::string_view text) {
 
 }  // namespace
 
-// Reads and compiles one modifier.
+// Reads and compiles a single modifier.
 class SurfaceFunctions::Maker {
  public:
   Maker(const SurfaceFunctions& functions, ModifierId modifier)
@@ -104,7 +105,7 @@ class SurfaceFunctions::Maker {
     arguments_.fail(what, status);
   }
 
-  // rest: the arguments among which there should be so many coordinates.
+  // rest: the arguments that should include this number of coordinates.
   [[noreturn]] void tooFewCoordinates(std::span<const std::string_view> rest, size_t coordinates,
                                       std::string_view exception) const {
     const size_t given = arguments_.strings();
@@ -112,7 +113,7 @@ class SurfaceFunctions::Maker {
                      given - rest.size() + coordinates, exception, given));
   }
 
-  // find: the path of a file, searched for along RAYPATH. contentsOf: the text of the file at a path.
+  // find: the path of a file on RAYPATH. contentsOf: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (isFolder(path.value_or(std::string(name)), scene_.files))
@@ -138,7 +139,7 @@ class SurfaceFunctions::Maker {
     return thing;
   }
 
-  // Errors of read(), which begin with the file's path, get the place of the primitive.
+  // Adds the place of the primitive to errors of read(), which begin with the path of the file.
   template <class Read>
   auto placed(const Read& read) const {
     try {
@@ -185,8 +186,7 @@ class SurfaceFunctions::Maker {
     return program;
   }
 
-  // The functions that correct the values of data or of a picture. passed: the number of values that each is
-  // called with.
+  // The functions that correct the values of data or of a picture. passed: number of values passed to each.
   std::vector<Correction> corrections(Function& f, std::string_view file, const Words& names,
                                       const std::vector<int>& passed) const {
     std::vector<Correction> all;
@@ -197,8 +197,8 @@ class SurfaceFunctions::Maker {
     return all;
   }
 
-  // The second and third function of a colour are called with the value of their own channel if they take
-  // fewer than three arguments, otherwise with all three values.
+  // The second and third function of a colour receive only the value of their own channel if they take fewer
+  // than three arguments, otherwise all three values.
   std::vector<int> colorsPassed(std::string_view file, const Words& names) const {
     std::vector<int> passed{3};
     for (size_t i = 1; i < names.size(); ++i)
@@ -206,7 +206,7 @@ class SurfaceFunctions::Maker {
     return passed;
   }
 
-  // The words of a transform, which may be none.
+  // transform: the words of a transform; may be empty.
   void setTransform(Function& f, const Words& transform) const {
     if (transform.empty()) return;
     f.moved = true;
@@ -291,7 +291,7 @@ class SurfaceFunctions::Maker {
     s.shortest = std::max(read.shortest, limits.shortest);
     const double range = s.longest - s.shortest;
     if (range > 0) {
-      // As in RADIANCE: no more than four bins in a band, because more resolve nothing.
+      // As in RADIANCE, a band has at most four bins, because more would not be resolved.
       const double band = sampling ? sampling->width() : (limits.longest - limits.shortest) / 3;
       s.step = std::max(range / kMostBands, band / 4);
       s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
@@ -345,7 +345,7 @@ class SurfaceFunctions::Maker {
     f->results = std::max<size_t>(channels, 1);
     const V3d &r = read.right, &d = read.down, n = d.cross(r);
     const double n2 = n.length2();
-    // The motion vectors are parallel or too short. RADIANCE's test: the length of n x d, against 1e-12.
+    // The motion vectors are parallel or too short. RADIANCE compares the length of n x d with 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
     const auto font = shared(functions_.fonts_, read.font, [&] {
@@ -374,8 +374,8 @@ class SurfaceFunctions::Maker {
     return finish(std::move(f), std::move(s), read.orientation.file);
   }
 
-  // A call of the function of this name. Its last four arguments are the direction to a source and the solid
-  // angle of the source; `before` is the number of arguments that precede them.
+  // A call of a function by name. Its last four arguments are the direction to a source and the solid angle
+  // of the source; `before` is the number of arguments before these.
   ProgramPointer called(Function& f, std::string_view file, std::string_view function, int before) const {
     auto program = functions_.library_.compileCall(request(file), function, before + 4);
     use(f, program);
@@ -649,8 +649,8 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
   return colorOf(betweenMiddles(scratch.spectrum, data.firstWavelength, data.lastWavelength));
 }
 
-// RADIANCE draws one wavelength at random in each bin. The mean of the two here is the mean of its draws up
-// to terms of the third order in the wavelength.
+// RADIANCE draws a random wavelength in each bin. The mean of two fixed wavelengths equals the mean of these
+// draws up to third order in the wavelength.
 void SurfaceFunctions::evaluateSpectrum(const SpectralFunction& f, calc::Point& point,
                                         FunctionScratch& scratch) const {
   scratch.spectrum.resize(f.bins);
@@ -692,9 +692,9 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
 
 Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   if (sampling_) return Color(bandsOf(spectrum, *sampling_));
-  // In a run of three channels, RADIANCE first resamples spectra that rise in wavelength or have many values,
-  // at about their own resolution. This shifts colors by up to a fifth where it is coarse, and scenes are
-  // made with these colors.
+  // In a run of three channels, RADIANCE first resamples spectra that are in ascending order of wavelength or
+  // have many values, at about their own resolution. If that is coarse, colors shift by up to a fifth. The
+  // same is done here, because scenes were made with these colors.
   const size_t count = spectrum.values.size();
   if (spectrum.first > spectrum.last && count <= kMostBands) return threeChannels(spectrum);
   const double range = std::abs(spectrum.last - spectrum.first);
@@ -704,8 +704,8 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
       spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
 }
 
-// RADIANCE samples data of unevenly spaced wavelengths at even ones, so that it misses lines. Here the means
-// over bands are exact.
+// RADIANCE samples data of unevenly spaced wavelengths at even steps, which misses spectral lines. Here the
+// means over bands are exact.
 Color SurfaceFunctions::colorOf(const SpectralCurve& curve) const {
   if (sampling_) return Color(bandsOf(curve, *sampling_));
   return threeChannels(
@@ -743,8 +743,8 @@ V3d SurfaceFunctions::orientation(ModifierId modifier, const FunctionPoint& at,
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
-  // As in rtrace, an instance transforms the point and the normal that the functions use, but not the
-  // direction that they return.
+  // As in rtrace, an instance transforms the point and the normal that functions use, but not the direction
+  // that they return.
   return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 

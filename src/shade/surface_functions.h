@@ -2,8 +2,8 @@
 // Evaluates patterns, textures, mixtures and the functions of materials at a surface point: function files,
 // data, pictures and text.
 //
-// The files of a modifier are read and compiled when it is first evaluated. The result is shared by all
-// threads and needs no lock. Threads: any number may evaluate at once, each with its own FunctionScratch.
+// A modifier's files are read and compiled at its first evaluation, and shared by all threads without a lock.
+// Threads may evaluate at the same time, each with a separate FunctionScratch.
 #include <array>
 #include <atomic>
 #include <map>
@@ -27,21 +27,22 @@
 
 namespace rsphere {
 
-// A hit as function files see it, in the world.
+// A hit, as seen by function files, in world coordinates.
 struct FunctionPoint {
   V3d direction{0, 0, -1};    // of the ray, unit
   V3d normal{0, 0, 1};        // unperturbed, unit, not turned towards the ray
   double cosine = 1;          // -normal . direction
   V3d point{0, 0, 0};         // of the hit; the ray's origin if the hit is infinitely far
-  double distance = 0;        // T: from there to the eye, along the ray and its ancestors
-  double shadowDistance = 0;  // Ts: along the ray, and those of its ancestors that are shadow rays
+  double distance = 0;        // T: from the hit to the eye, along the ray and its ancestors
+  double shadowDistance = 0;  // Ts: along the ray and those ancestors that are shadow rays
   double u = 0, v = 0;        // local coordinates
   PlacementPath path{};       // the placement of the modifiers' coordinates in the world
   // For reflection(), transmission() and distribution():
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
-  Color color{1, 1, 1};          // of the material with its pattern; of BRTDfunc, the pattern's
-  V3d toTarget{0, 0, 0};         // for redirection(): to the light source that the ray is for (unit), or 0
+  Color color{1, 1, 1};          // of the material with its pattern; for BRTDfunc, of the pattern
+  V3d toTarget{0, 0, 0};         // for redirection(): to the light source at which the ray is aimed (unit),
+                                 // or 0
 };
 
 // Working memory for evaluations by one thread.
@@ -54,58 +55,59 @@ struct FunctionScratch {
 
 class SurfaceFunctions {
  public:
-  // Keeps a reference to the scene. sampling: the bands of a spectral run; null in a run of three channels,
-  // in which spectra are computed between these limits. warn: called with a line, once for each modifier,
-  // when a value cannot be computed (division by zero and the like); from any thread, but never from two at
-  // once. definitions: shared by all function files, instead of those of rayinit.cal. Throws rad::Error if a
-  // definition is missing or invalid.
+  // Keeps a reference to the scene. sampling: the bands of a spectral run. Null in a run of three channels,
+  // whose spectra are computed within `limits`. warn: called once for each modifier with a value that cannot
+  // be computed (division by zero and the like), from any thread, but never by two at once. definitions:
+  // visible to all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
+  // missing or invalid.
   SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn = {},
                    std::span<const SharedDefinitions> definitions = {}, const WavelengthLimits& limits = {});
 
-  // Each of these functions takes a modifier. If a value cannot be computed, it returns the neutral value
-  // given below. It throws rad::Error, with the modifier's place in the scene file, when it first needs
-  // something that is missing or invalid: function files, data, pictures, fonts or texts (Status::system if
-  // there is no such file), their contents, a transform, or the number of arguments; and whenever an
-  // expression uses a name that does not exist.
+  // Each of these functions takes a modifier. If a value cannot be computed, the neutral value is returned.
+  // They throw rad::Error, with the modifier's place in the scene file, in two cases:
+  // - At first use, something is missing or invalid: function files, data, pictures, fonts or texts
+  //   (Status::system if the file does not exist), their contents, a transform, or the number of arguments.
+  // - An expression uses a name that does not exist.
 
-  // The factor on the colour of the material that it modifies. Neutral value: (1, 1, 1). That of a spectral
-  // pattern (spectrum, specfile, specfunc, specdata, specpict) has bands in a spectral run. In a run of three
-  // channels it is the red, green and blue to which RADIANCE converts the spectrum.
+  // The factor on the colour of the modified material. Neutral value: (1, 1, 1). For a spectral pattern
+  // (spectrum, specfile, specfunc, specdata, specpict), the color has bands in a spectral run; in a run of
+  // three channels it is RADIANCE's conversion of the spectrum to red, green and blue.
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // Whether a pattern is the same for all rays that arrive at a place.
+  // Whether a pattern is the same for all rays that hit the same place.
   bool dependsOnPlaceAlone(ModifierId pattern) const;
-  // Whether it depends on how far they have come.
+  // Whether a pattern depends on the distance that the rays have travelled.
   bool dependsOnDistance(ModifierId pattern) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // The share of the foreground, 0 to 1. Negative if it cannot be computed; the mixture is then ignored.
+  // The share of the foreground, 0 to 1. Negative if it cannot be computed, which means that the mixture is
+  // ignored.
   double mixture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
 
-  // The same for materials; the neutral value is 0.
+  // The functions of materials; the neutral value is 0.
 
-  // The direction in the world that highlights are oriented by (ux uy uz), of any length: plastic2, metal2,
-  // trans2, ashik2, WGMDfunc.
+  // plastic2, metal2, trans2, ashik2, WGMDfunc: the direction ux uy uz that orients highlights, in the world,
+  // of any length.
   V3d orientation(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the up direction in the world, of any length.
   V3d up(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // BSDF: the thickness of the geometry that it hides, in world units; positive if the geometry lies behind
-  // the surface's front.
+  // BSDF: the thickness of the hidden geometry, in world units; positive if it lies behind the surface's
+  // front.
   double thickness(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the file's data.
   const BsdfData& bsdf(ModifierId modifier) const;
-  // BRTDfunc: the coefficients of sharp reflection and transmission. WGMDfunc: share, roughness along and
-  // roughness across of the reflected and the transmitted lobe.
+  // BRTDfunc: the coefficients of sharp reflection and transmission. WGMDfunc: for the reflected and the
+  // transmitted lobe, share, roughness along and roughness across.
   std::array<double, 3> reflection(ModifierId modifier, const FunctionPoint& at,
                                    FunctionScratch& scratch) const;
   std::array<double, 3> transmission(ModifierId modifier, const FunctionPoint& at,
                                      FunctionScratch& scratch) const;
-  // plasfunc and the like, BRTDfunc: the bidirectional scattering (1/sr) towards the ray's origin of light
-  // from a source that fills solidAngle (sr) in direction toSource (unit, world).
+  // plasfunc and the like, BRTDfunc: the scattering function (1/sr) towards the ray's origin, for light from
+  // a source that fills solidAngle (sr) in direction toSource (unit, world).
   Color distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                      FunctionScratch& scratch) const;
 
-  // prism1, prism2, for one of its images (0 or 1): the coefficient of the redirected ray, and its direction
-  // (world, unit).
+  // prism1, prism2: for an image (0 or 1), the coefficient of the redirected ray and its direction (world,
+  // unit).
   struct Redirection {
     double coefficient = 0;
     V3d direction{0, 0, 0};
@@ -113,7 +115,7 @@ class SurfaceFunctions {
   Redirection redirection(ModifierId modifier, int image, const FunctionPoint& at,
                           FunctionScratch& scratch) const;
 
-  // Warns of a problem with a modifier; only of the first one for each modifier.
+  // Warns of a problem with a modifier, but only of the first for each modifier.
   void warn(ModifierId modifier, std::string_view problem) const;
 
  private:
@@ -141,31 +143,31 @@ class SurfaceFunctions {
   struct Text {
     std::shared_ptr<const rad::FontFile> font;
     rad::TextLayout layout;
-    // anchor: the origin of the text. right, down: the basis of its plane that is dual to the motion vectors.
+    // right, down: the basis of the text's plane that is dual to the motion vectors.
     V3d anchor, right, down;
     std::array<double, 3> foreground, background;
   };
 
-  // spectrum, specfile: the same everywhere.
+  // spectrum, specfile: the same at every hit.
   struct ConstantSpectrum {
     Color color;
   };
-  // specfunc: a function of the wavelength. Its mean over each bin is estimated from its values at two
-  // wavelengths. As in RADIANCE, the spectrum is spread over the whole range, although the bins may end up to
-  // a step before the end of the range.
+  // specfunc: a function of the wavelength. Its mean over each bin is estimated from two wavelengths. As in
+  // RADIANCE, the spectrum is spread over the whole range, although the last bin may end up to a step
+  // earlier.
   struct SpectralFunction {
     ProgramPointer program;
     double longest = 0, shortest = 0;  // nm
     double step = 0;                   // nm, from bin to bin
-    size_t bins = 0;                   // 0: none of its wavelengths is among those of the run
+    size_t bins = 0;                   // 0: outside the wavelengths of the run
   };
-  // specdata: a table by coordinates and wavelength. specpict: a picture of spectra. The correction is a
+  // specdata: a table over coordinates and wavelength. specpict: a picture of spectra. The correction is a
   // function of a value and its wavelength.
   struct SpectralData {
     ProgramPointer coordinates, correction;
     std::shared_ptr<const rad::DataFile> table;      // of specdata
     std::shared_ptr<const SpectralPicture> picture;  // of specpict
-    size_t count = 0;                                // of wavelengths
+    size_t count = 0;                                // number of wavelengths
     double firstWavelength = 0, lastWavelength = 0;  // nm, of the middles of their bins
     std::vector<double> unevenWavelengths;           // nm; empty if they are evenly spaced
   };
@@ -175,12 +177,13 @@ class SurfaceFunctions {
     ProgramPointer orientation, reflection, transmission;  // of three numbers each
     ProgramPointer thickness;
     std::shared_ptr<const BsdfData> bsdf;
-    // One for each channel, or the first for all. Their arguments are the direction to a source and its solid
-    // angle, after the table's value if there is a table.
+    // One for each channel, or only the first for all channels. The arguments are the table's value, if there
+    // is a table, then the direction to a source and its solid angle.
     std::array<ProgramPointer, 3> distribution;
     bool gray = true;
     std::shared_ptr<const rad::DataFile> table;
-    std::vector<ProgramPointer> coordinates;  // in the table; functions of the same four arguments
+    std::vector<ProgramPointer> coordinates;  // coordinates in the table, as functions of the same four
+                                              // arguments
   };
 
   // A coefficient and a direction for each image.
@@ -194,13 +197,13 @@ class SurfaceFunctions {
                  SpectralData>
         what;
     size_t results = 1;   // 1, 3, or 0 for a spectrum
-    uint64_t needs = 0;   // the inputs that it reads, one bit each
+    uint64_t needs = 0;   // one bit for each input that it reads
     bool moved = false;   // whether it has a transform
-    Placement placement;  // by that transform
+    Placement placement;  // placement by its transform
     mutable std::atomic<bool> warned = false;
   };
 
-  // Objects by name, each made when it is first needed.
+  // Objects by name. Each is created at first use.
   template <class T>
   using Cache = std::map<std::string, std::shared_ptr<const T>, std::less<>>;
 
@@ -210,22 +213,21 @@ class SurfaceFunctions {
   }
   const Function& prepare(ModifierId modifier) const;
   std::span<const double> realsOf(ModifierId modifier) const;
-  // The placement of the function's coordinates in the world; null if they are world coordinates. If it has
-  // to be composed for this call, it is stored in scratch.
+  // The placement of the function's coordinates in the world; null if these are world coordinates. scratch:
+  // stores the result if placements must be composed.
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // Whether no fault has occurred since the faults were cleared, and the values that were computed are
-  // finite; otherwise warns.
+  // Whether all values are finite and no fault was recorded since the last reset; otherwise warns.
   bool computed(ModifierId modifier, const FunctionScratch& scratch, std::span<const double> values) const;
   std::array<double, 3> three(ModifierId modifier, ProgramPointer Scatterer::*program,
                               const FunctionPoint& at, FunctionScratch& scratch) const;
-  // The function's numbers. If they cannot be computed, warns and returns false.
+  // Computes the function's numbers. If that fails, warns and returns false.
   bool evaluate(ModifierId modifier, const Function& f, const FunctionPoint& at, FunctionScratch& scratch,
                 std::array<double, 3>& out) const;
 
   Color spectralPattern(ModifierId modifier, const Function& f, const FunctionPoint& at,
                         FunctionScratch& scratch) const;
-  // These set scratch.spectrum, unless a fault occurs.
+  // Both set scratch.spectrum, unless a fault occurs.
   void evaluateSpectrum(const SpectralFunction& f, rad::calc::Point& point, FunctionScratch& scratch) const;
   void evaluateSpectrum(const SpectralData& data, rad::calc::Point& point, FunctionScratch& scratch) const;
   Color colorOf(const Spectrum& spectrum) const;
@@ -238,7 +240,7 @@ class SurfaceFunctions {
   WavelengthLimits limits_;
   rad::Warn warn_;
   mutable std::vector<std::atomic<const Function*>> ready_;  // by modifier
-  mutable std::mutex mutex_;                                 // of all that follows
+  mutable std::mutex mutex_;                                 // guards all members that follow
   mutable std::vector<std::unique_ptr<Function>> functions_;
   mutable rad::calc::Library library_;
   mutable Cache<rad::DataFile> data_;

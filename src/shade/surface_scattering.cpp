@@ -6,13 +6,14 @@ namespace {
 static_assert(ScattersLight<RoundScattering> && ScattersLight<EllipticScattering> &&
               ScattersLight<AshikhminLobeScattering> && ScattersLight<ProgrammedScattering>);
 
-// Maximal number of draws for a sample of ashik2 that lies above the surface; as in RADIANCE.
+// Cap on the draws for a sample of ashik2 above the surface; as in RADIANCE.
 constexpr int kMostTries = 10;
-// -ss below 1 does not narrow the lobe of ashik2. The original draws one sample per ray and distributes those
-// of successive rays evenly. Here samples depend on their ray alone, and four of them give as little noise.
+// -ss below 1 does not narrow the lobe of ashik2. The original draws one sample per ray, evenly distributed
+// over successive rays. Here samples of a ray are independent of other rays, and four of them have the same
+// noise.
 constexpr int kAshikhminSamples = 4;
 
-// A sample of a lobe, stratified in its first number. sample: as sampleReflection().
+// A sample of a lobe, stratified in the first random number. sample: a function like sampleReflection().
 template <class Sample>
 LobeSample drawStratified(const Color& share, int i, int n, Random& random, const Sample& sample) {
   LobeSample drawn;
@@ -37,8 +38,7 @@ LobeSample RoundScattering::draw(Component component, int i, int n, Random& rand
   });
 }
 
-// The peak of a lobe, share / (4 pi alpha^2) at normal incidence, is at most kMost times the diffuse part,
-// share / pi.
+// Compares the peak of a lobe at normal incidence, share / (4 pi alpha^2), with the diffuse part, share / pi.
 bool RoundScattering::isEven() const {
   constexpr double kMost = 4;
   const Scattering& s = scattering_;

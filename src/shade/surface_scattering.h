@@ -1,12 +1,13 @@
 #pragma once
-// How a surface scatters light towards a ray's origin, in the terms in which a path tracer estimates it:
+// Scattering of light by a surface towards a ray's origin, divided into the terms that a path tracer
+// estimates:
 //
 //   sharp paths  +  lobes, by samples  +  on each side: indirect light  +  direct light
 //
-// One class for each model of scattering; all have the members of the concept ScattersLight. They are values:
-// they trace nothing, and take the random numbers that they need from the caller. Their terms must be
-// estimated in the order above, the reflected before the transmitted, because a lobe that is too weak to be
-// sampled may add its share to the indirect light.
+// Each model of scattering is a class with the members of the concept ScattersLight. They are values: they
+// trace nothing, and the caller passes their random numbers. Their terms must be estimated in the order
+// above, reflection before transmission, because a lobe that is too weak to be sampled may add its share to
+// the indirect light.
 #include <array>
 #include <concepts>
 #include <optional>
@@ -23,65 +24,65 @@ enum class Component : uint8_t { reflected, transmitted };
 inline constexpr std::array kComponents{Component::reflected, Component::transmitted};
 using Components = std::span<const Component>;
 
-// Adding this to a point leaves the point unchanged to the last bit, also if it contains -0.
+// Adding it leaves a point unchanged to the last bit, even if a coordinate is -0.
 inline const V3d kNoOffset{-0., -0., -0.};
-// Of a surface that light reaches from both sides.
+// The value of front() for a surface that is lit on both sides.
 inline const V3d kNoFront{0, 0, 0};
 
 // A lobe that is estimated by samples.
 struct Lobe {
-  int leastSamples = 1;  // of a ray of weight 1, whatever -ss is
-  // The lobe's share of the ray's radiance. If above 0, the number of samples is limited so that each of them
-  // keeps a weight of at least -lw.
+  int leastSamples = 1;  // for a ray of weight 1, regardless of -ss
+  // The lobe's share of the ray's radiance. If it is above 0, it limits the number of samples, so that each
+  // has a weight of at least -lw.
   double share = 0;
   V3d offset = kNoOffset;  // from the hit to the origin of the samples (world units)
 };
 
-// How far samples are spread: over a lobe (-ss) and over a light source (-dj), 1 for all of it.
+// Spread of samples over a lobe (-ss) and over a light source (-dj); 1: over the whole.
 struct SampleSpread {
   double lobe = 1, source = 0;
 
   explicit SampleSpread(const MaterialOptions& options)
       : lobe(options.specularSampling), source(options.directJitter) {}
-  // Whether samples of a lobe reproduce the light that coefficient() gives to it.
+  // Whether samples of a lobe reproduce the light that coefficient() assigns to it.
   bool isWhole() const { return lobe >= 1 && source >= 1; }
 };
 
 struct LobeSample {
   V3d direction{0, 0, 0};   // unit
-  Coefficient coefficient;  // of its radiance in that of the ray; black: the draw gave no valid direction
+  Coefficient coefficient;  // of its radiance in the ray's radiance; black: no valid direction was drawn
 };
 
-// What all models of scattering answer.
+// The members of all models of scattering.
 template <class S>
 concept ScattersLight = requires(S s, const S& c, Component component, Random& random, V3d v) {
   { c.sharp() } -> std::same_as<const SharpPaths&>;
-  // The components of the surface, in the order in which they are estimated; any others are black.
+  // The components of the surface, in the order of estimation; all others are black.
   { c.components() } -> std::same_as<Components>;
-  // Empty if the component has no lobe that is sampled.
+  // Empty if no lobe of the component is sampled.
   { s.lobe(component, random) } -> std::same_as<std::optional<Lobe>>;
-  // Sample i of n of a lobe, for i from 0 on. The coefficients of all n add up to the lobe's share of light.
+  // Sample i (from 0) of n of a lobe. The coefficients of all n add up to the lobe's share of light.
   { c.draw(component, 0, 1, random) } -> std::same_as<LobeSample>;
-  // The coefficient of the mean radiance over the hemisphere from which the component's light arrives. It is
-  // centered on the normal, or for transmitted light on the opposite direction.
+  // The coefficient of the mean radiance over the hemisphere from which the component's light arrives: around
+  // the normal, or around its opposite for transmitted light.
   { c.indirect(component) } -> std::same_as<Coefficient>;
-  // The perturbed normal, and the surface's own (unit). Both are on the ray's side, whatever the component.
+  // The perturbed normal, and that of the surface (unit), both on the ray's side for either component.
   { c.normal(component) } -> std::same_as<const V3d&>;
   { c.trueNormal() } -> std::same_as<const V3d&>;
   // From the hit to the point where light of this component arrives (world units).
   { c.offset(component) } -> std::convertible_to<V3d>;
-  // Whether direct light is estimated at that point, after the indirect light of the component. It comprises
-  // the light of this component, or of both components if they share the point.
+  // Whether direct light is estimated at that point, after the indirect light of the component. If both
+  // components share the point, the estimate includes the direct light of both.
   { c.takesDirect(component) } -> std::same_as<bool>;
-  // The normal behind which coefficients of direct light are 0; 0: none.
+  // The normal behind which coefficients of direct light are 0; zero vector: none.
   { c.front() } -> std::same_as<const V3d&>;
-  // The share of a source's radiance that is scattered towards the ray's origin, for a source that fills a
+  // The fraction of a source's radiance that is scattered towards the ray's origin, for a source that fills a
   // solid angle (sr) in a direction (unit). REQUIRES takesDirect(component).
   { c.coefficient(component, v, 1., random) } -> std::same_as<Coefficient>;
-  // The probability density (per sr) of a lobe's samples in a direction (unit). 0 if the samples do not
-  // reproduce exactly the light that coefficient() assigns to the lobe there.
+  // The pdf (per sr) of a lobe's samples in a direction (unit). 0 if the samples do not exactly reproduce the
+  // light that coefficient() assigns to the lobe there.
   { c.lobeDensity(component, v) } -> std::same_as<double>;
-  // The share of light (of each channel and band) that the component's lobe scatters.
+  // The fraction of light, by channel and band, that the component's lobe scatters.
   { c.lobeShare(component) } -> std::convertible_to<Color>;
   // Whether the scattered light has no strong peak.
   { c.isEven() } -> std::same_as<bool>;
@@ -148,8 +149,8 @@ class RoundScattering {
 // plastic2, metal2, trans2, WGMDfunc: elliptic lobes (anisotropic.h).
 class EllipticScattering {
  public:
-  // along: as in Anisotropic's scatter(). Warns once per material if a highlight is anisotropic but its
-  // orientation vector gives no direction within the surface.
+  // along: as for scatter(const Anisotropic&, ...). Warns once per material if a highlight is anisotropic but
+  // its orientation vector defines no tangent direction.
   EllipticScattering(const Anisotropic& material, const V3d& along, const MaterialHit& hit)
       : at_(hit.interaction()),
         scattering_(scatter(material, at_, along, hit.options().specularThreshold)),
@@ -223,7 +224,7 @@ class AshikhminLobeScattering {
  private:
   Interaction at_;
   AshikhminScattering scattering_;
-  SharpPaths sharp_;  // none
+  SharpPaths sharp_;  // always empty
 };
 
 // plasfunc and the like, BRTDfunc: functions give the scattering of direct light (function_reflection.h).
