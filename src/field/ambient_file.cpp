@@ -14,7 +14,7 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kHeader = 69, kSceneEnd = 42;  // bytes; the end of the line that identifies the scene
+constexpr size_t kHeader = 69, kSceneEnd = 42;  // bytes; kSceneEnd: end of the line that identifies the scene
 constexpr size_t kRecord = sizeof(AmbientFile::Record) + sizeof(uint64_t);
 constexpr std::string_view kSuffix = ".rsphere";
 constexpr std::string_view kMagic = "#?RSPHERE ambient 1\n";
@@ -29,7 +29,7 @@ uint64_t checksum(const AmbientFile::Record& record) {
   return print.value();
 }
 
-// False on an error, or if there are fewer bytes.
+// False on an error or if the file ends too early.
 bool readAll(int descriptor, void* to, size_t size, off_t offset) {
   for (size_t done = 0; done < size;) {
     const ssize_t n = pread(descriptor, static_cast<char*>(to) + done, size - done, offset + off_t(done));
@@ -83,7 +83,7 @@ std::unique_ptr<AmbientFile> AmbientFile::open(const std::string& name, uint64_t
     throw rad::Error(fmt::format("cannot open ambient file \"{}\": {}", name, std::strerror(errno)),
                      rad::Status::system);
   std::unique_ptr<AmbientFile> file(new AmbientFile(name, descriptor, writable, warn));
-  // /dev/null: the user wants nothing to be kept.
+  // The user gives /dev/null to keep nothing.
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
   if (!file->begin(scene, options)) return nullptr;
   file->read();
@@ -117,7 +117,7 @@ bool AmbientFile::begin(uint64_t scene, uint64_t options) {
   const off_t size = sizeOf(descriptor_);
   found.resize(std::min<size_t>(kHeader, static_cast<size_t>(std::max<off_t>(size, 0))));
   const bool readable = readAll(descriptor_, found.data(), found.size(), 0);
-  // The header is incomplete: the process that wrote it was killed.
+  // An incomplete header is left by a process that was killed while it wrote the header.
   const bool begun = found.size() < kHeader && header(0, 0).starts_with(found.substr(0, kMagic.size()));
   bool written = true;
   if (readable && begun && writable_)
@@ -165,7 +165,7 @@ bool AmbientFile::add(std::span<const Record> records, bool wait) {
     bytes.append(reinterpret_cast<const char*>(record.data()), record.size());
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   }
-  // Overwrites an incomplete record whose writer was killed.
+  // If the last record is incomplete because its writer was killed, it is overwritten.
   const off_t size = sizeOf(descriptor_);
   const off_t end = size - (size - static_cast<off_t>(kHeader)) % static_cast<off_t>(kRecord);
   const bool written = size >= static_cast<off_t>(kHeader) && writeAll(descriptor_, bytes, end);

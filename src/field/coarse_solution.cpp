@@ -13,18 +13,19 @@ namespace {
 
 using Tuning = tuning::CoarseSolution;
 
-// The -aa at which Tuning::kSpacing is the side of a patch, and Tuning::kRays its rays.
+// The -aa at which Tuning::kSpacing is the relative side of a patch, and Tuning::kRays its relative number of
+// rays.
 constexpr double kUsualAccuracy = .1;
 
-// Cap on the rays of a patch: their noise is then a sixty-fourth of that of one, less than other errors.
+// Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
 constexpr double kMostRays = 4096;
 
-// The binary logarithms of the buckets of the tables: 2 and 4 MB. In a picture of an office, 190,000 patches
-// and 370,000 divisions are looked up. With 65,536 buckets, a third of the time was spent waiting for the
-// memory of long chains.
+// Binary logarithms of the numbers of hash buckets; the tables take 2 and 4 MB. A picture of an office looks
+// up 190,000 patches and 370,000 divisions. With 65,536 buckets, a third of the time was spent waiting for
+// memory in long chains.
 constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 
-// Whether a site lies on a ball or a cone and everything that it sees is near, compared to the radius.
+// Whether a site lies on a ball or a cone, and all surfaces around it are near compared with the radius.
 bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
   return chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
 }
@@ -33,17 +34,17 @@ bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
 
 // How a part of a surface is divided into patches.
 struct CoarseSolution::Division {
-  int level = 0;  // of the widest cells whose side is at most what their surroundings ask for, or the finest
-  double side = 0;          // that the surroundings ask for (world units)
-  int finest = 0;           // level of the finest cells that rays from nearby ask for
-  bool isEnclosed = false;  // no finer ones are tried where patches are hidden
+  int level = 0;  // of the widest cells that are not wider than `side`, or the finest level
+  double side = 0;  // largest side that the surroundings allow (world units)
+  int finest = 0;  // level of the finest cells used for rays from nearby
+  bool isEnclosed = false;  // then hidden patches are not replaced by finer ones
 };
 
 struct Patch {
-  bool usable = false;  // it has a site
+  bool usable = false;  // it has a gather site
   GatherSite site;
-  double reach = 0;
-  double share = 0;         // in the light of the other surfaces of the room (Tuning::kUsualShare)
+  double reach = 0;  // harmonic mean distance of its surroundings
+  double share = 0;  // in the light on the room's other surfaces: see Tuning::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::atomic<const PatchLinks*> links{nullptr};
@@ -54,7 +55,7 @@ struct Patch {
 
     ~Light() { delete bands.load(std::memory_order_relaxed); }
   };
-  std::unique_ptr<Light[]> light;  // by bounces - 1
+  std::unique_ptr<Light[]> light;  // index: bounces - 1
 
   ~Patch() { delete links.load(std::memory_order_relaxed); }
 };
@@ -69,7 +70,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       coarserLinks_(std::max(options.coarserLinks,
                              room > 0 || options.patchesAtFirst ? 0 : Tuning::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
-      ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // in single precision as all light here
+      ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // single precision, like all light stored here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
       patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogPatchBuckets)),
       enclosed_(std::make_unique<InsertOnce<CellKey, bool>>(kLogDivisionBuckets)) {}
@@ -112,13 +113,13 @@ Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, Fi
   });
 }
 
-// The level of the smallest patches of a surface. leastSide: their side as a share of the surface's extent.
+// The level of the smallest patches of a surface. leastSide: their side relative to the surface's extent.
 int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) const {
   return grid_.levelOf(leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
 }
 
-// Whether all of a side of a surface lies in a narrow gap, as between nested shells. A place where something
-// else comes near does not make it enclosed.
+// Whether an entire side of a surface lies in a narrow gap, as between nested shells. A surface that another
+// object approaches only in places is not enclosed.
 bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
     for (size_t i = 0; i < Tuning::kEnclosedPlaces; ++i) {
@@ -130,8 +131,8 @@ bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   });
 }
 
-// The widest patches that the surroundings of a place allow, regardless of the distance that it is seen from.
-// All places in a cell of the finest level have the answer for its middle.
+// The widest patches that the surroundings of a place allow, regardless of the viewing distance. All places
+// in a cell of the finest level get the result for the cell's middle.
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
                                                            FieldRays& rays) {
   const double open = tuning::Fields::kOpen * grid_.size;
@@ -168,7 +169,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   level = std::max(
       level, std::min(grid_.levelOf(Tuning::kHalf * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
-  // Light changes across slats and other strips that are near to each other, and others hide a part of each.
+  // Light varies across closely spaced strips such as slats, because neighbouring strips hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(Tuning::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
@@ -189,7 +190,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
 
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
-  // The rays go where their noise matters: a patch that is large where it is seen from matters most.
+  // Patches with a larger share in the light of others get more rays, because their noise matters more.
   const double part = std::clamp(patch.share / Tuning::kUsualShare, effort_.fewer, effort_.more);
   const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
   auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
@@ -212,7 +213,7 @@ Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
   }
   const PatchLinks& links = linksOf(patch, rays);
   V3f sum(0, 0, 0);
-  Color inBands;  // the same sum where anything has bands
+  Color inBands;  // the same sum with bands, if anything has bands
   const auto add = [&](const V3f& part, const auto& color) {
     sum += part;
     if (hasBands_) inBands += color();

@@ -1,23 +1,22 @@
 #pragma once
 // A coarse solution of diffuse interreflection, which final gathers look up (-aa above 0).
 //
-// Diffuse surfaces are divided into patches, which the scene and the options determine. A patch gathers once:
-// rays from one point of it, each of which ends at other patches or in light that does not depend on any
-// patch. The result is stored as links, form factors times reflectances. The light after any number of
-// bounces follows from the links without tracing another ray. Patches are made and linked on demand.
+// Diffuse surfaces are divided into patches, which depend only on the scene and the options. Each patch
+// gathers once: it sends rays from one point, which end at other patches or in light that depends on no
+// patch. The result is stored as links, products of form factors and reflectances. The links give the light
+// after any number of bounces without tracing more rays. Patches are made and linked on demand.
 //
 // Source: final gathering over a radiosity solution (Smits, "Efficient global illumination for radiosity
-// environments", 1994; Ward's "two-pass" reasoning, 1988). The links are Monte Carlo form factors: all
-// bounces share the same rays.
+// environments", 1994; Ward's "two-pass" reasoning, 1988). Differences: the form factors are Monte Carlo
+// estimates, and all bounces share the same rays.
 //
-// A patch serves a place only if the segment between the two is unoccluded, so that no light leaks through
-// walls.
+// A place uses a patch only if the segment between them is unoccluded, so that no light leaks through walls.
 //
-// Threads: any number may query at once, and none waits. If two threads need the same patch at the same time,
-// both may link it; the links are identical, and the first are kept. An answer depends only on the place and
-// the random numbers of the query, not on earlier queries or on the thread.
+// Threads: any number may query at the same time, and none waits. If two threads need the same patch at the
+// same time, both may link it; the links are identical, and the first are kept. An answer depends only on the
+// place and the random numbers of the query, not on earlier queries or on the thread.
 //
-// Memory: not bounded by -Sm. It grows with the number of patches that paths reach.
+// Memory: not limited by -Sm. It grows with the number of patches that paths reach.
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -33,25 +32,25 @@ namespace rsphere {
 
 class CoarseSolution {
  public:
-  // Keeps a reference to the scene. bounds: of all that can be hit. room: the size of a room into which light
-  // comes through openings (world units), so that few rays find it and patches that matter more need more of
-  // them. 0: lamps light the surfaces directly, where more rays do not pay.
+  // Keeps a reference to the scene. bounds: of everything that rays can hit. room: the size of a room that is
+  // lit through openings (world units); few rays hit the openings, so that important patches need more rays.
+  // 0: lamps light the surfaces directly, and more rays would not pay.
   CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options, double room);
   ~CoarseSolution();
 
-  // The patch that serves a place; null if there is none and the path has to be followed. One of the patches
-  // around the place is drawn by the uniform numbers u1, u2 in [0, 1), so that the expected value is
-  // interpolated between them. Other patches, whose rays ask for it, may be served by larger ones
+  // The patch whose light a place uses; null if there is none and the path has to be followed. The uniform
+  // numbers u1, u2 in [0, 1) select one of the patches around the place, so that the expected value is
+  // interpolated between them. Rays that are traced to link a patch may get larger patches than paths do
   // (FieldOptions::coarserLinks).
   enum class Asker : uint8_t { path, patch };
   Patch* find(const SurfacePlace& place, double u1, double u2, FieldRays& rays, Asker asker = Asker::path);
 
   // The mean radiance that arrives at a patch (irradiance over pi) after at most `bounces` diffuse
-  // reflections; -av for 0 of them.
+  // reflections; -av for 0 reflections.
   Color light(Patch& patch, int bounces, FieldRays& rays);
 
   size_t patches() const { return made_.load(std::memory_order_relaxed); }
-  // The patches of these that were linked, and the rays that were followed for them.
+  // The number of patches that were linked, and of the rays that were followed for them.
   struct Work {
     size_t patches = 0, rays = 0;
   };
@@ -60,14 +59,14 @@ class CoarseSolution {
   }
 
  private:
-  // How finely surfaces are divided, and how many rays a patch has.
+  // How finely surfaces are divided into patches, and how many rays a patch sends.
   struct Effort {
-    double spacing;      // of patches, as a multiple of the harmonic mean distance of their surroundings
-    double leastSide;    // of a patch, as a share of its surface's extent
-    double farSide;      // that suffices, as a share of the distance that it is seen from
-    double usual;        // rays of a patch of the usual share in the light of others (Tuning::kUsualShare)
+    double spacing;  // side of a patch, relative to the harmonic mean distance of its surroundings
+    double leastSide;  // lower bound on the side of a patch, relative to its surface's extent
+    double farSide;  // sufficient side of a patch, relative to the distance it is seen from
+    double usual;  // rays of a patch with the share Tuning::kUsualShare in the light of others
     double fewer, more;  // bounds on the factor for other shares
-    double least;        // rays of every patch
+    double least;  // lower bound on the rays of a patch
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 
@@ -89,7 +88,7 @@ class CoarseSolution {
   std::atomic<size_t> made_{0}, linked_{0}, rays_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
   std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;
-  std::unique_ptr<InsertOnce<CellKey, bool>> enclosed_;  // by the first cell of a chart
+  std::unique_ptr<InsertOnce<CellKey, bool>> enclosed_;  // key: the first cell of the surface's chart
 };
 
 }  // namespace rsphere

@@ -3,20 +3,21 @@
 
 namespace rsphere {
 
-// How the fields of interpolated light are made, after rtrace's options.
+// Settings of the irradiance cache and the coarse solution, most of them given by rtrace's options.
 struct FieldOptions {
   int bounces = 0;        // -ab
   double accuracy = .1;   // -aa
   int resolution = 256;   // -ar  0: no limit
-  double rays = 1536;     // -ad + -as: the rays of patches are in proportion to it
-  // Patches of the coarse solution that only others see are larger by so many levels, each of which doubles
-  // their side.
+  double rays = 1536;  // -ad + -as; the number of rays of a patch is proportional to it
+  // Patches of the coarse solution that are only seen by other patches are enlarged by this number of levels.
+  // Each level doubles the side of a patch.
   int coarserLinks = 0;
-  // Whether patches serve the first diffuse surface too, so that their errors are those of the answer.
+  // Whether patches are also used at the first diffuse surface, where their errors directly affect the
+  // answer.
   bool patchesAtFirst = false;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands
-  double memory = 0;      // -Sm  MB of the irradiance cache; 0: no bound
+  double memory = 0;  // -Sm  MB for the irradiance cache; 0: no limit
 };
 
 }  // namespace rsphere

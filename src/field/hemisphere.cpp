@@ -31,11 +31,11 @@ int HemisphereCells::cellOf(const V3d& direction, const V3d& x, const V3d& y, co
 
 namespace {
 
-// Means over a ring of cells. s and c are sine and cosine of the angle to the normal.
+// Mean values over a ring of cells. c and s: cosine and sine of the angle to the normal.
 struct RingMeans {
   double c, s, inverseC, tangent;
-  double edgeWeight;  // of the difference across the edge to the ring inside
-  double width;       // difference of the sines of its edges
+  double edgeWeight;  // weight of the difference between this ring and the next inner one
+  double width;  // difference between the sines of its two edges
 };
 
 std::vector<RingMeans> meansOfRings(int rings, int sectors) {
@@ -55,7 +55,7 @@ std::vector<RingMeans> meansOfRings(int rings, int sectors) {
   return means;
 }
 
-// Sums of radiance over a sector, weighted with the means of its rings.
+// Sums of the radiance over a sector, weighted by the mean values of its rings.
 struct SectorSums {
   Color one{0, 0, 0}, s{0, 0, 0}, c{0, 0, 0}, inverseC{0, 0, 0}, tangent{0, 0, 0};
 
@@ -68,8 +68,8 @@ struct SectorSums {
   }
 };
 
-// out: the middle direction of the sector in the plane of the surface. acrossSector: the mean over the sector
-// of the cosine of the angle to it. count: the number of all cells.
+// out: the middle direction of the sector in the plane of the surface. acrossSector: mean over the sector of
+// the cosine of the angle to `out`. count: number of all cells.
 void addSector(LightMoments& moments, const SectorSums& sums, const V3d& out, double acrossSector,
                const V3d& z, int count) {
   for (int b = 0; b < 3; ++b) {
@@ -91,7 +91,7 @@ void addSector(LightMoments& moments, const SectorSums& sums, const V3d& out, do
 GatheredLight HemisphereCells::sum(std::span<const Radiance> radiance, std::span<const double> distance,
                                    double nearest, const V3d& x, const V3d& y, const V3d& z) const {
   Radiance mean;
-  // By channel, along x and y.
+  // Gradient per channel, along x and y.
   double move[3][2] = {}, variance = 0, slopeVariance = 0;
   const auto at = [&](int j, int k) { return j * sectors_ + k; };
   const auto apart = [&](int a, int b) { return std::max(nearest, std::min(distance[a], distance[b])); };
@@ -147,7 +147,7 @@ void LightMoments::add(const LightMoments& other, float share) {
   }
 }
 
-// The clamped cosine of the angle to n, in Legendre polynomials: 1/4 + 1/2 n.d + 5/32 (3 (n.d)^2 - 1).
+// Expands the clamped cosine of the angle to n in Legendre polynomials: 1/4 + 1/2 n.d + 5/32 (3 (n.d)^2 - 1).
 float LightMoments::towards(const V3f& n, int c) const {
   const V3f squared(n.x * n.x, n.y * n.y, n.z * n.z), mixed(n.y * n.z, n.z * n.x, n.x * n.y);
   const float second = squares[c].dot(squared) + 2 * products[c].dot(mixed);
@@ -159,10 +159,10 @@ Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) co
   if ((after - before).length2() < 1e-12F) return Radiance(color());
   V3f result;
   for (int c = 0; c < 3; ++c) {
-    // The mean itself is known better than its moments tell it.
+    // The mean is known more accurately than its moments, which only give the ratio.
     const float straight = tilted.towards(before, c);
     const float ratio = straight > 0 ? tilted.towards(after, c) / straight : 0;
-    // All of it may come from where the normal is turned to.
+    // Upper bound: all light arrives from the direction of the perturbed normal.
     const float most = tilted.all[c] > 0 ? tilted.all[c] : mean[c];
     result[c] = std::clamp(mean[c] * ratio, 0.F, std::max(most, mean[c]));
   }

@@ -7,8 +7,8 @@
 
 namespace rsphere {
 
-// A hash table that many threads read and add to concurrently without waiting. The table never moves, changes
-// or removes an entry. Key has hash(); Value need not be movable.
+// A hash table that many threads can read and extend at the same time without waiting. Entries are never
+// moved, changed or removed. Key needs a member hash(); Value need not be movable.
 template <class Key, class Value>
 class InsertOnce {
  public:
@@ -30,8 +30,8 @@ class InsertOnce {
     return node ? &node->value : nullptr;
   }
 
-  // The value of the key. If there is none, adds the one that make(value) changes from Value{}; it is
-  // discarded if another thread adds one first.
+  // The value of the key. If there is none, adds the value that make(value) fills in. It is discarded if
+  // another thread has added one in the meantime.
   template <class Make>
   Value& findOrAdd(const Key& key, Make make) {
     std::atomic<Node*>& bucket = buckets_[key.hash() & mask_];
@@ -53,7 +53,7 @@ class InsertOnce {
   size_t size() const { return size_.load(std::memory_order_relaxed); }
 
  private:
-  // The value is beside its key, since most of the time of a look-up is spent waiting for memory.
+  // The value is next to its key, since most of the time of a look-up is spent waiting for memory.
   struct Node {
     explicit Node(const Key& k) : key(k) {}
     Key key;

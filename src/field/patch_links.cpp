@@ -5,7 +5,7 @@
 namespace rsphere {
 namespace {
 
-// Adds a color to an element.
+// Adds a color to the element i.
 void addAt(std::vector<V3f>& channels, std::vector<Bands>& bands, size_t i, const Color& color) {
   if (channels.size() <= i) channels.resize(i + 1, V3f(0, 0, 0));
   const V3f sum = channels[i] + V3f(color.rgb());

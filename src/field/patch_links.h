@@ -1,5 +1,5 @@
 #pragma once
-// What the rays of a patch of the coarse solution found (coarse_solution.h).
+// The result of the rays that a patch of the coarse solution has sent (coarse_solution.h).
 #include <Imath/ImathVec.h>
 
 #include <vector>
@@ -10,32 +10,32 @@ namespace rsphere {
 
 using Imath::V3f;
 
-// A patch of the coarse solution, which owns it.
+// Defined and owned by the coarse solution.
 struct Patch;
 
-// Most rays of a patch end at the patch that they hit first. Where no patch serves that hit, the ray is
-// followed; `bounces` is the number of diffuse bounces that it makes beyond it. Coefficients: contribution to
-// the mean radiance that arrives at the patch that owns the links.
+// Most rays of a patch end at the first patch that they hit. If no patch can be used there, the ray is
+// followed; `bounces` is the number of its diffuse bounces after the first hit. A coefficient is the factor
+// by which light contributes to the mean radiance that arrives at the patch that owns the links.
 struct PatchLinks {
   struct Link {
     Patch* patch;
-    V3f coefficient;  // factor on the mean radiance that arrives at `patch`
+    V3f coefficient;  // for the mean radiance that arrives at `patch`
     int bounces;
   };
   std::vector<Link> links;
-  std::vector<V3f> light;  // by bounces: radiance that depends on no patch (W/sr/m2)
-  std::vector<V3f> ends;   // by bounces: factor on -av, used if the path ends there for lack of bounces
-  int rays = 0;            // that were followed, with their descendants, without shadow rays
+  std::vector<V3f> light;  // index: bounces; radiance that depends on no patch (W/sr/m2)
+  std::vector<V3f> ends;  // index: bounces; coefficient of -av, used if -ab ends the path here
+  int rays = 0;  // number of rays that were followed, with their descendants, without shadow rays
 
   void add(Patch* patch, const Coefficient& coefficient, int bounces);
   void addLight(int bounces, const Radiance& radiance);
   void addEnd(int bounces, const Coefficient& coefficient);
 
-  // The bands of each element of those above, empty until one has some.
+  // The bands of the elements of links, light and ends; empty while no element has bands.
   std::vector<Bands> bandsOfLinks, bandsOfLight, bandsOfEnds;
 };
 
-// The color of an element of PatchLinks, of which bands may be kept beside it.
+// The color of an element of PatchLinks, from its channels and its bands, if any.
 inline Color colorAt(const V3f& channels, const std::vector<Bands>& bands, size_t i) {
   return Color(V3d(channels), i < bands.size() ? bands[i] : Bands());
 }

@@ -6,8 +6,8 @@
 namespace rsphere {
 namespace {
 
-constexpr double kSlack = 1e-6;     // radians: far more than the rounding of angles
-constexpr double kParallel = 1e-9;  // sine squared between axes, below which they are taken for one
+constexpr double kSlack = 1e-6;  // radians; far larger than the rounding errors of the angles
+constexpr double kParallel = 1e-9;  // squared sine of the angle below which two axes are treated as equal
 
 }  // namespace
 
@@ -21,8 +21,8 @@ bool Beam::meets(const V3d& apex, const Ball& ball) const {
 }
 
 Beam beamThrough(const Ball& from, const Ball& opening) {
-  // The direction of a ray from the one to the other differs from that between their centers by no more than
-  // both radii; from the opening on, the point on the ray is a sum of such directions.
+  // A vector between two points of the balls differs from the vector between their centers by at most the
+  // sum of the radii. A vector to a point behind the opening is a sum of such vectors.
   const V3d towards = opening.center - from.center;
   const double distance = towards.length(), sine = (opening.radius + from.radius) / distance;
   if (!(distance > 0) || !(sine < 1)) return {};
@@ -33,12 +33,13 @@ Beam sharedBeam(const Beam& a, const Beam& b) {
   const double between = a.axis.dot(b.axis), sine2 = 1 - between * between;
   const Beam& narrower = a.cosine > b.cosine ? a : b;
   if (!(sine2 > kParallel)) return narrower;
-  // middle: halfway between the two directions in which the beams' surfaces cross, in the plane of the axes.
-  // Its products with the axes are the cosines. If it is s a + t b with s and t of at least 0, then every
-  // direction d in both beams has d . middle = s (d . a) + t (d . b) >= middle . middle.
+  // middle points halfway between the two directions in which the beams' surfaces cross, and its length is
+  // the cosine of the shared beam. Its products with the axes are the cosines of the beams. If it is s a + t
+  // b with s, t >= 0, each direction d in both beams has d . middle = s (d . a) + t (d . b) >= middle .
+  // middle.
   const double s = (a.cosine - b.cosine * between) / sine2;
   const double t = (b.cosine - a.cosine * between) / sine2;
-  if (s <= 0 || t <= 0) return narrower;  // which has more than its half in the other
+  if (s <= 0 || t <= 0) return narrower;  // more than half of the narrower beam lies in the other
   const V3d middle = s * a.axis + t * b.axis;
   const double cosine = middle.length();
   return {middle / cosine, cosine};

@@ -25,8 +25,8 @@ bool isConvex(std::span<const V3d> v, const V3d& normal) {
   return true;
 }
 
-// If vertices deviate from the polygon's mean plane by more than rounding, the points that the unit square is
-// mapped to lie outside that plane.
+// False if the vertices deviate from the polygon's mean plane by more than rounding. The points that the unit
+// square is mapped to then lie outside that plane.
 bool isFlat(const Polygon& polygon, std::span<const V3d> vertices) {
   return thicknessOf(polygon, vertices) <= 1e-9 * std::sqrt(areaOf(polygon, vertices));
 }
@@ -64,7 +64,7 @@ LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
     setSquare(light);
     if (isConvex(v, polygon.normal)) {
       light.map = fanOf(v);
-    } else {  // some samples miss it
+    } else {  // some samples miss the polygon
       light.map = PlaneLight::Square{};
       source.hitsWhereAimed = false;
     }
@@ -121,7 +121,7 @@ LightSource lightSourceOf(const Scene& scene, SurfaceId surface) {
   LightSource source =
       visit([&](const auto& shape) { return sourceOf(shape, scene); }, scene.surfaces[surface].shape);
   source.surface = surface;
-  // The vertices of so small a square are not flat to rounding.
+  // A sensor is so small that the vertices of its square are not flat to rounding.
   if (scene.surfaces[surface].finish.sensor) source.hitsWhereAimed = true;
   if (!source.isDistant()) source.outermost = source.radius;
   return source;

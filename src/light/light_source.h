@@ -1,5 +1,5 @@
 #pragma once
-// Light sources as the direct calculation (next-event estimation) samples them.
+// Light sources as next-event estimation (RADIANCE's direct calculation) samples them.
 #include <optional>
 #include <variant>
 #include <vector>
@@ -15,20 +15,20 @@ namespace rsphere {
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
-  // For a concave polygon, by the same formula: to a square of equal area, partly outside the polygon.
+  // For a concave polygon: the same formula, to a square of equal area that lies partly outside the polygon.
   struct Square {};
   // To the disk with radii u and v, preserving area.
   struct Disk {};
-  // To a convex polygon, as a fan of triangles around its first vertex, by area.
+  // To a convex polygon that is divided into triangles around its first vertex, preserving area.
   struct Fan {
-    std::vector<double> areas;  // cumulative shares of the triangles
+    std::vector<double> areas;  // cumulative fractions of the polygon's area
     std::vector<V3d> vertices;
   };
 
   V3d normal{0, 0, 0};  // unit
   double area = 0;
-  V3d u{0, 0, 0}, v{0, 0, 0};       // of Square and Fan: half the sides of a square of equal area
-  double extentU = 0, extentV = 0;  // half the source's size along u and v, which decides how it is split
+  V3d u{0, 0, 0}, v{0, 0, 0};  // of Square and Fan: half the sides of a square of equal area
+  double extentU = 0, extentV = 0;  // half the source's size along u and v, which determines how it is split
   std::variant<Parallelogram, Square, Disk, Fan> map{};
 };
 // A sphere. Samples are drawn in the cone of directions that it subtends.
@@ -42,10 +42,10 @@ struct TubeLight {
 struct DistantLight {
   double sinHalfAngle = 0, cosHalfAngle = 1;
 };
-// A visitor that lacks an answer for one of them does not compile.
+// A visitor that does not handle all of these types does not compile.
 using LightShape = std::variant<PlaneLight, BallLight, TubeLight, DistantLight>;
-// The number of shapes and of maps. Code that asks for one of them alone asserts it, and so fails to compile
-// for a new one until it was read again.
+// The number of shapes and maps. Code that handles only one of them asserts this number, so that adding a
+// shape makes that code fail to compile until someone has checked it.
 inline constexpr size_t kLightForms =
     std::variant_size_v<LightShape> + std::variant_size_v<decltype(PlaneLight::map)>;
 
@@ -55,19 +55,20 @@ inline constexpr size_t kLightForms =
 // Virtual sources are the images of other sources in a relay (mirror, prism1, prism2). An image has a
 // position and an extent, and can only be seen through its relay.
 struct LightSource {
-  SurfaceId surface{};   // of a virtual source, its relay, which a ray to it hits first
-  LightId relayed{};     // the source that a ray reaches from the relay; kNone: a real source
-  int32_t image = 0;     // which of its relay's images, from 0
+  SurfaceId surface{};  // of a virtual source: its relay, which a ray to the source hits first
+  LightId relayed{};  // the source that the relay shows; kNone: this is a real source
+  int32_t image = 0;  // index among the images that its relay makes of that source
   V3d center{0, 0, 0};   // of a distant source, the direction to it (unit)
   double radius = 0;     // of its bounding sphere around center (world units); 0 for distant sources
-  double outermost = 0;  // the largest distance of its points from center; a sine if distant
+  // Largest distance of its points from center; for a distant source, the sine of its half-angle.
+  double outermost = 0;
   double reach = 0;      // beyond this distance (world units) it lights nothing directly; 0: no limit
   std::optional<Spotlight> spot{};
-  // Of a virtual source: every point that it lights lies in the beam, as seen from the image's center. A
-  // distant image has no center; its beam holds all directions.
+  // Of a virtual source: a beam from the image's center that contains every point the source lights. A
+  // distant image has no center; its beam contains all directions.
   Beam beam{};
-  // Rays need no intersection test with the source. Either it is real and flat, and the unit square maps into
-  // it, so that a ray hits it exactly where it was aimed; or it is a sphere that shines outward.
+  // A ray that is aimed at the source surely hits it, so that no intersection test is needed. True if the
+  // source is real and flat and the unit square maps into it, or if it is a sphere that shines outward.
   bool hitsWhereAimed = false;
   LightShape shape{};
 
@@ -80,20 +81,20 @@ struct LightSource {
   }
 };
 
-// The source that a surface is, without the reach and the spot of its material. REQUIRES that the surface is
-// not an instance or a mesh.
+// The light source that a surface forms, without the reach and the spotlight that its material sets.
+// REQUIRES that the surface is not an instance or a mesh.
 LightSource lightSourceOf(const Scene& scene, SurfaceId surface);
 
-// Sets the extents of a source from its other members.
+// Computes the members extentU and extentV from the others.
 void measure(PlaneLight& light);
 
-// Half the width of a tube across its axis, as seen along a vector.
+// A vector from a tube's axis to its outline as seen along a direction. Its length is the tube's radius.
 inline V3d acrossTube(const TubeLight& tube, const V3d& along) {
   return tube.half.cross(along).normalized() * (tube.area / (4 * tube.half.length()));
 }
 
-// Whether rays that are aimed at the shape hit it. A goal may have any shape; one that cannot be aimed at is
-// only hit by chance.
+// Whether all rays that are aimed at the shape hit it. An importance goal may have any shape; a shape for
+// which this is false is only hit by chance.
 bool canBeAimedAt(ShapeRef shape, const Scene& scene);
 
 }  // namespace rsphere

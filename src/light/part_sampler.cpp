@@ -1,5 +1,4 @@
-// The samples of one light source as seen from a point: how each shape is divided into parts, and how a part
-// is sampled.
+// Samples one light source as seen from a point: divides its shape into parts, and samples each part.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,13 +16,13 @@ namespace {
 
 using Tuning = tuning::SourceParts;
 
-constexpr int kMostParts = 64;  // of a source; RADIANCE's own limit, for which users choose their -ds
-// The factor on a length by the number of times that it was halved, up to kMostParts parts.
+constexpr int kMostParts = 64;  // per source. RADIANCE has the same limit, and users choose -ds for it
+// Factor on a length after it has been halved this number of times. The last entry gives kMostParts parts.
 constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
 constexpr int kMostHalvings = std::bit_width(static_cast<unsigned>(kMostParts)) - 1;
 static_assert(kHalved.size() == kMostHalvings + 1);
 
-// Below this cosine a plane source is seen edge-on and left out, as RADIANCE does.
+// Plane sources seen under a smaller cosine are treated as edge-on and omitted, as in RADIANCE.
 constexpr double kEdgeOn = 1e-4;
 
 // Concentric map of the square [-1, 1]^2 to the unit disk, area-preserving (Shirley and Chiu 1997, JGT 2/3).
@@ -41,7 +40,7 @@ void toDisk(double& a, double& b) {
   b = r * std::sin(phi);
 }
 
-// A part of the unit square that is mapped to a source.
+// A rectangle of the unit square, which is mapped to a part of the source.
 struct SourcePart {
   double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
 };
@@ -70,21 +69,21 @@ std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const S
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
 }
 
-// The region around a part's middle that its ray is jittered over.
+// The region around a part's middle over which its sample is jittered.
 SourcePart shrunk(const SourcePart& p, double jitter) {
   const double s = (1 - jitter) / 2 * (p.s1 - p.s0), t = (1 - jitter) / 2 * (p.t1 - p.t0);
   return {p.s0 + s, p.s1 - s, p.t0 + t, p.t1 - t};
 }
 
-// Whether a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
-// have unbounded variance. towards: from the point to its middle.
+// True if a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
+// have unbounded variance. towards: the vector from the point to the part's middle.
 bool isNear(const PlaneLight& plane, const SourcePart& part, const V3d& towards) {
   const double width = 2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
   return width * width > Tuning::kNear * Tuning::kNear * towards.length2();
 }
 
-// Splits a part until its half-extents u and v are at most `allowed` times its distance, or there are `most`
-// parts. Calls use() with each of them and with the vector from the point to its middle.
+// Halves a part repeatedly until its half-extents u and v are at most `allowed` times its distance, or until
+// there are `most` parts. Calls use() with each part and the vector from the point to the part's middle.
 template <class Position, class Use>
 void split(const SourcePart& part, int most, double u, double v, double allowed, const V3d& from,
            const Position& position, const Use& use) {
@@ -122,7 +121,7 @@ double depthInBall(Random& random) {
 
 class PartSampler {
  public:
-  // Keeps references. Samples of the source, which has this index, are appended to `samples`.
+  // Keeps references. Samples are appended to `samples`. index: the number of the source.
   PartSampler(const LightSource& source, LightId index, const Scene& scene, const V3d& point,
               const SourceSampling& how, Random& random, std::vector<SourceSample>& samples)
       : source_(source),
@@ -141,9 +140,8 @@ class PartSampler {
   void sample(const V3d& towards);
 
  private:
-  // A sample in a direction (unit) that represents a solid angle (sr). Nothing is added if the ray does not
-  // hit the source. length: the distance to the point on or in the source that it is aimed at, which is
-  // compared with the reach.
+  // Adds a sample in a direction (unit) that represents a solid angle (sr), unless the ray misses the source.
+  // length: the distance to the sampled point on or in the source, which is compared with the reach.
   void add(const V3d& direction, double solidAngle, double length);
   bool hit(const V3d& direction, double length, SourceSample& sample) const;
 
@@ -164,7 +162,7 @@ class PartSampler {
   const Scene& scene_;
   const V3d& point_;
   double jitter_;   // -dj
-  double allowed_;  // the limit for the half-extents of parts relative to their distance (-ds)
+  double allowed_;  // largest half-extent of a part relative to its distance (half of -ds)
   bool splitsBalls_;
   bool tubesInDepth_;
   Random& random_;
@@ -172,7 +170,7 @@ class PartSampler {
 };
 
 static_assert(kLightForms == 8, "Where do rays meet it that are aimed at it?");
-// Sets the hit of a ray that is aimed at the source; false if it misses.
+// Finds where a ray that was aimed at the source hits it; false if it misses.
 bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample) const {
   if (source_.hitsWhereAimed) {
     if (const auto* plane = source_.as<PlaneLight>()) {
@@ -188,7 +186,7 @@ bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample)
   }
   if (source_.isDistant() && !source_.isVirtual()) return true;
   ShapeHit hit;
-  // The relay of a virtual source lies in front of the image.
+  // The ray hits the relay of a virtual source, which lies in front of the image.
   const double farthest = source_.isVirtual() && !source_.isDistant() ? length + source_.radius : 1e10;
   if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit))
     return false;
@@ -204,15 +202,16 @@ void PartSampler::add(const V3d& direction, double solidAngle, double length) {
   if (source_.reach > 0 && length > source_.reach) return;
   if (source_.spot && !source_.isDistant()) {
     if (outsideSpot(*source_.spot, direction)) return;
-    // The light diverges from a focus behind the surface.
+    // The beam of a spotlight diverges from a focus behind the surface.
     const double nearer = length / (length + source_.spot->focalLength);
     sample.solidAngle *= nearer * nearer;
   }
   samples_.push_back(sample);
 }
 
-// A round source: directions are uniform by solid angle projected along the middle direction. One ray to
-// the middle is then exact for a surface that faces the source, and jittered rays are for every surface.
+// A round source is sampled uniformly in solid angle projected along the direction to its middle. A single
+// ray to the middle is then exact for a surface that faces the source; jittered rays are exact for every
+// surface.
 void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   if (jitter_ <= 0) return add(middle, kPi * sine * sine, distance);
   const double s = sine * jitter_ * std::sqrt(random_.uniform());
@@ -220,14 +219,15 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   const double c = std::sqrt(std::max(0., 1 - s * s));
   V3d x, y;
   frame(middle, x, y);
-  // The reach of a glow is measured to a random point in the ball, so that its light has no sharp edge.
+  // The reach of a glow is compared with the distance to a random point in the ball, which avoids a sharp
+  // edge.
   double length = distance;
   if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
   if (c > kEdgeOn)
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
 }
 
-// The same for parts of the disk that the ball is seen as: each has a share of the solid angle.
+// The same, stratified: each part of the disk that the ball appears as gets one sample.
 void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
   V3d x, y;
   frame(middle, x, y);
@@ -242,7 +242,7 @@ void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance
                                         jittered(part.t0, part.t1, jitter_, random_));
     const double c = std::sqrt(std::max(0., 1 - aside.length2()));
     const double share = (part.s1 - part.s0) * (part.t1 - part.t0);
-    // The reach is measured as for a whole ball.
+    // The reach is treated as in addRound().
     double length = distance;
     if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
     if (c > kEdgeOn) add(aside + c * middle, share * kPi * sine * sine / c, length);
@@ -270,8 +270,8 @@ void PartSampler::addDistant(const DistantLight& cone, double distance) {
       distance);
 }
 
-// A sample of a plane part. aim: the vector from the point to the place to hit. Inline: most sources consist
-// of a few such parts, and the calls were .6% of the instructions for patterned lamps.
+// Adds a sample of a plane part. aim: the vector from the point to the sampled place. Inline because most
+// sources consist of a few such parts, and calls took .6% of the instructions in scenes with patterned lamps.
 [[gnu::always_inline]] inline void PartSampler::addMiddle(const PlaneLight& plane, const V3d& aim,
                                                           double length, double area) {
   if (!(length > 0)) return;
@@ -284,11 +284,11 @@ void PartSampler::addDistant(const DistantLight& cone, double distance) {
   samples_.push_back({direction, omega, length, cosine, plane.normal, index_});
 }
 
-// The same as split() for a plane source that is spanned by u and v, without recursion: a part is given by
-// its middle and by the number of times that u and v were halved.
+// Does what split() does for a plane source that is spanned by u and v, without recursion. A part is
+// described by its middle and by how often u and v were halved.
 void PartSampler::addMiddles(const PlaneLight& plane, const V3d& towards) {
   struct Place {
-    V3d middle;  // the vector from the point to it
+    V3d middle;  // relative to the point
     int halvedU, halvedV;
   };
   std::array<Place, kMostHalvings> later;
@@ -322,9 +322,9 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   if (fromAxis <= radius) return;  // inside, or looking at an open end
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
-  // The point sees the tube up to some angle on either side of `facing`. This is the sine of that angle.
+  // The visible half of the tube extends to this sine on either side of `facing`.
   const double widest = std::sqrt(1 - radius * radius / (fromAxis * fromAxis));
-  // Uniform along the axis and, seen from `facing`, across: the element of area is dx dz / cosine.
+  // Samples are uniform along the axis and across the visible width: the element of area is dx dz / cosine.
   const auto addOnSide = [&](const SourcePart& part, const V3d& middle) {
     const double sine = jitter_ * (2 * random_.uniform() - 1) * widest;
     const double cosine = std::sqrt(1 - sine * sine);
@@ -348,7 +348,7 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
         tube.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) / (length * length),
         length);
   };
-  // Nearer than this, the tube's width matters as much as its length, and splitting does not pay.
+  // Not split at smaller distances, where the tube's width matters as much as its length.
   const bool divided = allowed_ > 0 && fromAxis > 2 * radius;
   split(SourcePart{}, divided ? kMostParts : 1, halfLength, 0, allowed_, point_, at, use);
 }
@@ -356,7 +356,7 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
 // Samples a part of a parallelogram uniformly by solid angle.
 void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
-  // For a point in the plane of the source, rounding would decide which side is seen, and the source
+  // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
   // would then fill half the sky.
   if (height <= kSamePlace) return;
   const std::array<V3d, 4> whole = cornersOf(source_.center, plane, part);

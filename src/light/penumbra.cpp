@@ -6,9 +6,9 @@
 namespace rsphere {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of heights, relative to the largest coordinate: some 1e4 epsilon
+constexpr double kRounding = 1e-12;  // tolerance for heights, relative to the largest coordinate; 1e4 epsilon
 constexpr double kMargin = 1e-7;     // relative to the largest coordinate: see penumbra.h
-constexpr double kFlat = 1e-6;       // sine below which an edge and a corner determine no plane
+constexpr double kFlat = 1e-6;  // if the sine between an edge and a corner is smaller, they define no plane
 
 double largest(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -30,8 +30,9 @@ int sideOf(std::span<const V3d> points, const HalfSpace& plane, double rounding)
   return inside ? 1 : -1;
 }
 
-// Appends the half spaces behind the planes through an edge of `edges` and a corner of `corners`.
-// sideOfOpening(plane): 1 or -1 if the opening lies on its inner or outer side and the source on the other.
+// Appends the half spaces bounded by planes through an edge of `edges` and a corner of `corners`.
+// sideOfOpening(plane): 1 or -1 if the opening lies on the plane's inner or outer side and the source on the
+// other side; 0 if the plane does not separate them.
 template <class SideOfOpening>
 void addPlanes(std::span<const V3d> edges, std::span<const V3d> corners, const SideOfOpening& sideOfOpening,
                std::vector<HalfSpace>& bounds) {

@@ -16,7 +16,7 @@ RelayTree::RelayTree(const std::vector<Bounds>& relays) : numbers_(relays.size()
   if (!relays.empty()) build(relays, 0, static_cast<uint32_t>(relays.size()));
 }
 
-// Appends the node of the relays in numbers_ from begin to end, with all below it. Returns its place.
+// Appends a node for the relays from begin to end in numbers_, and its descendants. Returns its index.
 uint32_t RelayTree::build(const std::vector<Bounds>& relays, uint32_t begin, uint32_t end) {
   const auto at = static_cast<uint32_t>(nodes_.size());
   Node node{{}, begin, end};

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the relays (relays.h) that a beam of light may reach, in a time that grows with the logarithm of
-// their number.
+// A bounding volume hierarchy of relays (relays.h). It finds the relays that a beam of light may reach in a
+// time that grows with the logarithm of their number.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -22,9 +22,9 @@ class RelayTree {
 
   explicit RelayTree(const std::vector<Bounds>& relays);
 
-  // Sets found to the numbers of all relays that light may reach, in ascending order; some others may be
-  // among them. mayReach(Bounds): whether light may reach something within the bounds. If it is true for some
-  // bounds, it must be true for all bounds that contain them.
+  // Sets `found` to the indices of all relays that light may reach, in ascending order; it may contain others
+  // too. mayReach(Bounds): whether light may reach anything within the bounds. If it is true for some bounds,
+  // it must be true for all bounds that contain them.
   template <class MayReach>
   void find(const MayReach& mayReach, std::vector<uint32_t>& found) const {
     found.clear();
@@ -33,12 +33,12 @@ class RelayTree {
   }
 
  private:
-  static constexpr uint32_t kFewest = 4;  // relays that are not divided further
+  static constexpr uint32_t kFewest = 4;  // nodes with at most this number of relays are leaves
 
   struct Node {
     Bounds bounds;
-    uint32_t begin = 0, end = 0;  // in numbers_
-    uint32_t second = 0;          // the second of its two parts, the first of which follows it; 0: none
+    uint32_t begin = 0, end = 0;  // range in numbers_
+    uint32_t second = 0;  // index of the second child; the first child follows the node. 0: a leaf
   };
 
   uint32_t build(const std::vector<Bounds>& relays, uint32_t begin, uint32_t end);

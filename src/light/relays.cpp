@@ -15,11 +15,11 @@ namespace rsphere {
 namespace {
 
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
-// Bounds of relays are enlarged by this share of their distance, so that rounding loses no relay in them.
+// Bounds of relays are enlarged by this fraction of their distance so that rounding cannot exclude a relay.
 constexpr double kRounding = 1e-9;
-// Light that has passed more relays than this is bounded by its source and by the last of them, because all
-// relays of a chain of n would take a memory of n^2. The bounds of the light are wider without the others,
-// which changes memory and time, but no answer: two facing mirrors with -dr 2000 take 19 MB.
+// For light that has passed more relays than this, only its source and this number of the last relays bound
+// it, because storing all n relays of each image in a chain of n would take memory of order n^2. The bounds
+// become wider, which affects memory and time but no answer. Two facing mirrors with -dr 2000 take 19 MB.
 constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
@@ -41,23 +41,23 @@ struct Relay {
   V3d normal;
   double offset = 0;         // normal . p for the points p of the plane
   Ball ball;                 // around it
-  std::vector<V3d> corners;  // of the polygon, or of the square around the ring
-  std::vector<V3d> hull;     // its points lie in the hull of these: see hullOf()
+  std::vector<V3d> corners;  // of the polygon, or of a square around the ring
+  std::vector<V3d> hull;  // all points where rays can hit it lie in the hull of these: see hullOf()
 };
 
-// One of the things that the light of an image has left or passed: first the source, unless it is distant,
-// then the relays. They are placed as seen from behind the last relay, where the path of the light is a
-// straight line: the last relay where it is, the source and the other relays where the relays after them show
-// their images.
+// One element of the path that the light of an image has taken: the source (unless it is distant) or a relay.
+// The path is unfolded to a straight line as it appears from behind the last relay: the source and the
+// earlier relays are moved to where the later relays show their images.
 struct Passage {
-  Ball ball;  // around it
-  Beam beam;  // holds all that light from it reaches behind the last relay, as seen from the ball's center
+  // Contains all points behind the last relay that light from here reaches; apex at the ball's center.
+  Ball ball;
+  Beam beam;  // its hull contains the part of this element that the light comes from or passes
   std::vector<V3d> hull;  // all that the light has left or come through of it lies in the hull of these
   bool isFlat = false;    // the hull is a polygon
 };
 struct Way {
   std::vector<Passage> passages;
-  std::vector<HalfSpace> lit;  // each holds all that the light reaches behind the last relay
+  std::vector<HalfSpace> lit;  // each contains all points behind the last relay that the light reaches
 };
 
 // The modifier of the mirror or prism that makes the surface a relay, which may be the alternative material
@@ -73,7 +73,7 @@ ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
   return material && imagesMadeBy(*material) > 0 ? modifier : kNone;
 }
 
-// The corners of a box. Four edges on either side join successive corners.
+// The corners of a box, in an order in which successive corners are mostly joined by edges.
 std::vector<V3d> cornersOf(const Box3d& box) {
   std::vector<V3d> corners;
   for (const unsigned k : {0, 1, 3, 2, 6, 7, 5, 4})
@@ -92,7 +92,7 @@ std::vector<V3d> cornersOf(const Ring& ring) {
 }
 
 // Points whose convex hull contains all points where rays can hit a shape. Rays hit a polygon in its mean
-// plane, so that its vertices are first moved into that plane, along the axis Polygon::axis.
+// plane, so its vertices are first moved into that plane along the coordinate axis Polygon::axis.
 std::vector<V3d> hullOf(ShapeRef shape, std::span<const V3d> vertices) {
   return match(
       shape,
@@ -176,7 +176,7 @@ class Images {
   }
 
  private:
-  // A relay that light reaches, and points whose hull holds the part of it that the light reaches.
+  // A relay that light reaches, and points whose hull contains the lit part of it.
   struct Reached {
     uint32_t relay;
     std::vector<V3d> part;
@@ -185,19 +185,20 @@ class Images {
   void addImages(LightId source, Way way, int relays) {
     if (relays <= 0) return;
     const std::vector<Reached> reached = relaysReached(source, way);
-    std::vector<HalfSpace>().swap(way.lit);  // it would stay in memory for each relay of a long sequence
+    // Frees memory that each relay of a long sequence would otherwise hold.
+    std::vector<HalfSpace>().swap(way.lit);
     for (const Reached& r : reached)
       for (int image = 0; image < imagesBy(relays_[r.relay]); ++image)
         addImage(source, way, r, image, relays);
   }
 
-  // The relays that light of a source which has come this way may reach.
+  // The relays that the light of a source may reach after it has come this way.
   std::vector<Reached> relaysReached(LightId source, const Way& way) const {
     std::vector<uint32_t> found;
     tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, found);
     std::vector<Reached> reached;
     for (const uint32_t r : found) {
-      // A relay makes no image of its own images, nor of light that its own surface emits.
+      // A relay makes no image of its own images, nor of its own surface as a source.
       if (relays_[r].surface == sources_[source].surface) continue;
       if (!lights(source, way, relays_[r])) continue;
       std::vector<V3d> part = clipped(relays_[r].hull, way.lit);
@@ -278,7 +279,7 @@ class Images {
     const double before = source.center.dot(relay.normal) - (source.isDistant() ? 0 : relay.offset) +
                           extent(source, relay.normal);
     if (before <= kTiny) return std::nullopt;  // behind the mirror
-    // Of a source that the plane divides, the part in front may be hidden by an earlier relay.
+    // If the mirror's plane cuts the source, an earlier relay may hide the part in front of it.
     const auto reachesFront = [&](const Passage& passage) {
       return passage.ball.center.dot(relay.normal) - relay.offset + passage.ball.radius > kTiny;
     };
@@ -286,9 +287,9 @@ class Images {
     return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
   }
 
-  // The map to the image in a prism: a shear, combined with a reflection if the light leaves on the side that
-  // it came from. The ray from the source's center through the relay's center, after the prism has turned it,
-  // then appears to come from the center of the image.
+  // The map to the image in a prism: a shear, combined with a reflection if the light leaves on the side
+  // where it arrived. After the prism has redirected the ray from the source's center through the relay's
+  // center, the ray then appears to come from the center of the image.
   std::optional<Projection> projectByPrism(const LightSource& source, const Relay& relay, int image) {
     FunctionPoint at;
     at.point = relay.ball.center + (relay.offset - relay.ball.center.dot(relay.normal)) * relay.normal;
@@ -310,7 +311,7 @@ class Images {
                       false};
   }
 
-  // The side of its last relay on which the light of a virtual source leaves: the points with
+  // The half space into which the last relay of a virtual source sends its light: the points with
   // away . p > offset.
   struct Side {
     V3d away;
@@ -319,7 +320,7 @@ class Images {
   Side sideLit(LightId index) const {
     const LightSource& source = sources_[index];
     const Relay& last = relays_[relayOf_[index]];
-    // A mirror reflects on its front, even where its plane divides the source; a prism's light leaves on the
+    // A mirror reflects on its front, even if its plane cuts the source; the light of a prism leaves on the
     // side opposite to the image.
     const double side =
         isPrism(last) ? source.center.dot(last.normal) - (source.isDistant() ? 0 : last.offset) : -1;
@@ -350,7 +351,7 @@ class Images {
            mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(plane->normal); }) > kTiny;
   }
 
-  // False only if lights() is false of every relay within the bounds.
+  // A conservative test: false only if lights() is false for every relay within the bounds.
   bool mayLight(LightId index, const Way& way, const RelayTree::Bounds& bounds) const {
     const LightSource& source = sources_[index];
     if (!source.isVirtual()) return true;
@@ -376,9 +377,11 @@ class Images {
     });
   }
 
-  // Whether light of a distant source that has come through a relay's ball can reach anything in another.
+  // Whether light of a distant source that has passed a relay's bounding ball can reach anything in another
+  // ball.
   static bool meetsDistantLight(const LightSource& source, const Ball& relay, const Ball& ball) {
-    // A source as wide as 120 degrees is taken to light every relay. That costs tests, but no light.
+    // A source with an opening of 120 degrees or more is assumed to light every relay: slower, but no light
+    // is lost.
     const DistantLight& cone = *source.as<DistantLight>();
     if (cone.cosHalfAngle <= .5) return true;
     const V3d between = ball.center - relay.center;
@@ -388,8 +391,8 @@ class Images {
     return aside.length() <= radius + spread;
   }
 
-  // Reduces hulls to what light comes from that reaches the hull of `part` by way of the last passage. One is
-  // empty if there is no such light.
+  // Reduces each hull to the part from which light reaches the hull of `part` through the last passage. A
+  // hull becomes empty if no such light exists.
   static void keepWhatReaches(const std::vector<V3d>& part, std::vector<Passage>& passages) {
     if (passages.size() < 2) return;
     std::vector<HalfSpace> seen;
@@ -406,15 +409,15 @@ class Images {
     }
   }
 
-  // The way of an image's light: that of its source's light, as the relay shows it, and the relay, of which
-  // the light reaches the hull of `part`.
+  // The way of an image's light: the way of the source's light as seen in the relay, then the relay itself,
+  // of which the light reaches the hull of `part`.
   static Way wayThrough(const LightSource& image, const Way& before, const Relay& relay,
                         const std::vector<V3d>& part, const Projection& projection) {
     Way way;
     auto& passages = way.passages;
     if (projection.isMirror) {
       for (const Passage& passage : before.passages) {
-        // Between the source and the last relays the oldest ones are left out: they narrow the light least.
+        // In long sequences the oldest relays after the source are omitted: they bound the light least.
         const size_t fromEnd = static_cast<size_t>(&before.passages.back() - &passage);
         if (fromEnd >= kMostRelays && !(&passage == &before.passages.front() && !image.isDistant())) continue;
         Passage& shown = passages.emplace_back(passage);
@@ -423,8 +426,8 @@ class Images {
         for (V3d& p : shown.hull) p = projection.point(p);
       }
     } else if (!image.isDistant()) {
-      // A prism's light seems to come from the image, but not from images of earlier relays. A shear makes
-      // the source longer by its shift at most.
+      // The light of a prism appears to come from the image of the source, but images of earlier relays would
+      // be wrong. A shear lengthens the source by at most its shift.
       const double radius = image.radius * (1 + projection.shift.length());
       const V3d half(radius, radius, radius);
       passages.push_back(
@@ -446,8 +449,8 @@ class Images {
     image.shape = rsphere::imageOf(source.shape, projection);
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
-      // A shear does not map a cone to a cone, so the image has no limit. The spot's cone is tested when the
-      // ray reaches the real source.
+      // A shear does not map a cone to a cone, so the image has no cone. The spotlight's cone is tested when
+      // the ray reaches the real source.
       if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
     }
     image.center =
@@ -461,7 +464,7 @@ class Images {
   ById<LightId, LightSource>& sources_;
   std::vector<Relay> relays_;
   RelayTree tree_{{}};
-  ById<LightId, size_t> relayOf_;  // for a virtual one, the index in relays_ of its last relay
+  ById<LightId, size_t> relayOf_;  // of each virtual source: index of its last relay in relays_
 };
 
 }  // namespace

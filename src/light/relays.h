@@ -6,9 +6,9 @@
 // radiance in that direction they return.
 //
 // An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
-// faces away from the relay, or the light of the source misses the relay after it has passed the preceding
-// relays, as bounded by planes through the exact corners of source and relays (penumbra.h). RADIANCE also
-// sends test rays (-dp): it drops an image if all of them are blocked, and omits its shadow tests if none is.
+// An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
+// faces away from the relay, or the source's light misses the relay after passing the preceding relays
+// (bounded by planes through the exact corners of source and relays: penumbra.h). RADIANCE also
 // Here every image is tested for shadows, as with RADIANCE's -dp 0.
 #include <vector>
 
@@ -18,9 +18,9 @@
 namespace rsphere {
 
 // Appends the images of all sources in sequences of up to `relays` relays. Relays are polygons and rings
-// whose material is mirror, prism1 or prism2, or illum with one of them as its alternative material. warn:
-// called for such surfaces of other shapes, which produce no images. functions: evaluates prisms; exceptions
-// that it throws are not caught.
+// whose material is mirror, prism1 or prism2, or illum with one of these as its alternate material. warn:
+// called for surfaces of other shapes with such a material; they produce no images. functions: evaluates the
+// arguments of prisms; exceptions that it throws are not caught.
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
                        const rad::Warn& warn, ById<LightId, LightSource>& sources);
 

@@ -9,14 +9,14 @@
 namespace rsphere {
 namespace {
 
-// The brightness (W/sr/m2) of the source, or of the real source whose image it is. Patterns and reflectances
-// are taken as 1.
+// The brightness (W/sr/m2) of a source, or of the real source that a virtual source shows. Patterns and
+// reflectances are taken as 1.
 double brightnessOf(const Scene& scene, const ById<LightId, LightSource>& all, LightId index) {
   while (all[index].isVirtual()) index = all[index].relayed;
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
-// The height of a source's center above the surface. If part of the source lies below the surface, half the
+// The height of a source's center above the surface. For a source that is partly below the surface: half the
 // height of its highest point.
 double before(double height, double radius) {
   return height >= radius ? height : std::max(0., height + radius) / 2;
@@ -52,7 +52,7 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
   }
 }
 
-// usual: the weight that the source has if its reach and its spot do not matter.
+// usual: the weight of the source without its reach and its cone.
 double SourceChoice::weightOf(const Special& special, const Near& near, const V3d& point, const V3d& front,
                               double usual) {
   if (special.distant)
@@ -60,7 +60,7 @@ double SourceChoice::weightOf(const Special& special, const Near& near, const V3
   const V3d towards = near.center - point;
   const double distance = towards.length();
   const bool tooFar = special.reach > 0 && distance > special.reach + near.radius;
-  // aim . direction for the direction to the source that is closest to the axis of the spot.
+  // aim . direction, for the direction towards the source that is closest to the spotlight's axis.
   const double deepest =
       distance > near.radius
           ? (special.spot ? special.spot->aim.dot(towards) : 0) / distance - near.radius / distance
@@ -77,12 +77,12 @@ double SourceChoice::weigh(const V3d& point, const V3d& front, std::span<const u
   for (size_t i = 0; i < sources.size(); ++i) {
     const Near& s = near_[LightId(sources[i])];
     const V3d towards = s.center - point;
-    // The distance is taken as at least the source's radius: nearer, more of the source is seen obliquely.
+    // Distances below the source's radius are raised to it, since the source is then seen more obliquely.
     const double square = std::max(towards.length2(), s.radius * s.radius);
     const double distance = std::sqrt(square);
     const double above = -towards.dot(s.normal);
-    // In the plane of the source itself, above is a rounding error. Its sign would let places on a luminous
-    // surface, such as a goal, choose that surface half of the time.
+    // In the plane of the source, `above` is a rounding error. If its sign mattered, a point on a luminous
+    // surface, such as an importance goal, would choose that surface half of the time.
     const bool inFront = above > kNegligible * distance;
     const double facing =
         s.everywhere * distance + (inFront ? above + s.radius * s.radius * s.radius / (2 * square) : 0);

@@ -16,23 +16,22 @@ class SourceChoice {
   // Keeps no reference to the scene or to its lights.
   SourceChoice(const Scene& scene, const LightSources& lights);
 
-  // Sets the weight of each of these sources (numbers of LightIds) at a point: approximately the
-  // irradiance (W/m2, of brightness) that it causes on a surface there with the normal `front` (unit), or
-  // from all sides if front is 0. The weight is greater than 0 wherever LightSources::sample() can return
-  // a sample for the same front, so errors of the approximation increase the variance but cause no bias.
-  // Returns the sum of the weights.
+  // Computes the weight of each of these sources (given as numbers of LightIds) at a point. A weight
+  // approximates the irradiance (W/m2, of brightness) from the source on a surface with the normal `front`
+  // (unit), or from all sides if front is 0. It is above 0 wherever LightSources::sample() can return a
+  // sample for the same front, so that approximation errors increase the variance but cause no bias.
   double weigh(const V3d& point, const V3d& front, std::span<const uint32_t> sources,
                std::vector<double>& weights) const;
 
  private:
-  // Sources at a finite distance. power: brightness times area (W/sr). A source that shines to all sides has
-  // normal 0 and everywhere 1; the others have everywhere 0.
+  // Sources at a finite distance. power: brightness times area (W/sr). `everywhere` is 1 for a source that
+  // emits in all directions, whose normal is 0, and 0 for the others.
   struct Near {
     V3d center, normal;
     double power, radius, everywhere;
-    uint32_t special = 0;  // from 1: its place in special_
+    uint32_t special = 0;  // 1 + its index in special_; 0: none
   };
-  // What a distant source has instead, and sources of limited reach or with a cone in addition.
+  // Data of a distant source, or additional data of a source with limited reach or a spotlight's cone.
   struct Special {
     bool distant = false;
     V3d direction{0, 0, 0};
@@ -43,7 +42,7 @@ class SourceChoice {
   static double weightOf(const Special& special, const Near& near, const V3d& point, const V3d& front,
                          double usual);
 
-  ById<LightId, Near> near_;  // one for every source; that of a distant source has power 0
+  ById<LightId, Near> near_;  // one for every source; power 0 if distant
   std::vector<Special> special_;
 };
 

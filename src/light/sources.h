@@ -1,6 +1,7 @@
 #pragma once
-// The light sources of a scene and how they are sampled from a point: a source is split into parts that are
-// small compared with their distance (-ds), and one ray goes to each part, at its middle or jittered (-dj).
+// The light sources of a scene, and how they are sampled from a point: a source is split into parts that are
+// small compared with their distance (-ds), and one ray is sent to each part, at its middle or jittered
+// (-dj).
 #include <vector>
 
 #include "light/light_source.h"
@@ -10,14 +11,14 @@
 
 namespace rsphere {
 
-// One ray towards a source. solidAngle (sr) is its weight: the sum over a source's samples estimates the
-// solid angle of the source. The estimate uses area * cosine / distance^2 at the sample for plane sources,
-// and is exact for spheres and distant sources as seen by a surface that faces them.
+// One ray towards a source. solidAngle (sr) is its weight: the sum over all samples of a source estimates the
+// source's solid angle. For plane sources the weight is area * cosine / distance^2 at the sample. For spheres
+// and distant sources, the estimate is exact if the surface at the point faces them.
 struct SourceSample {
   V3d direction{0, 0, 0};
   double solidAngle = 0;
-  double distance = 0;  // to the hit on the source, or on a virtual source's relay; 1e10 for distant sources
-  double cosine = 1;    // of the hit, positive on the front
+  double distance = 0;  // to the hit on the source or on the relay of a virtual source; 1e10 if distant
+  double cosine = 1;  // at the hit, positive on the front
   V3d normal{0, 0, 0};
   LightId source;
 };
@@ -25,22 +26,22 @@ struct SourceSample {
 // How a source is sampled.
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
-  double jitter = 0;   // the share of a part that its ray is spread over (-dj), 0 to 1
-  // Sources that lie entirely behind the plane through the point with this normal (unit) are omitted. If it
-  // is 0, none is omitted.
+  double jitter = 0;  // size of the jittered region relative to the part (-dj), 0 to 1
+  // Normal (unit) of the surface at the point. Sources that lie entirely behind its plane are omitted; 0:
+  // none is omitted.
   V3d front{0, 0, 0};
-  // Balls are split as well if they are jittered. rtrace never splits them, and where many rays are averaged
-  // it would not pay.
+  // Balls are split too if they are jittered. rtrace never splits them, and where many rays are averaged
+  // splitting does not pay.
   bool splitsBalls = false;
-  // Jittered samples of cylinders lie on the side that faces the point. Otherwise they lie in the plane
-  // through the axis, as in rtrace, so that rays aimed past the rim miss, and a short wide cylinder loses
-  // much of its light ("source aspect too small").
+  // Jittered samples of a cylinder lie on the side that faces the point. If false, they lie in the plane
+  // through its axis as in rtrace. Rays aimed past the rim then miss, and a short wide cylinder loses much of
+  // its light ("source aspect too small").
   bool tubesInDepth = false;
 };
 
 class LightSources {
  public:
-  // Keeps a reference to the scene. Distant glow, and glow whose reach is zero or negative, are not included.
+  // Keeps a reference to the scene. Distant glow, and glow with a reach of zero or less, are not included.
   explicit LightSources(const Scene& scene);
 
   // The same, with virtual sources from sequences of up to `relays` relays (-dr): see relays.h.
@@ -48,14 +49,14 @@ class LightSources {
 
   const ById<LightId, LightSource>& all() const { return sources_; }
 
-  // Appends the samples of one source as seen from a point, one for each of at most 64 parts. There are none
-  // if the source cannot light the point: it faces away, or the point is beyond its reach or outside its
-  // spot. A sample that misses the source it was aimed at is omitted. A sample of a virtual source is only
-  // tested against the first relay; a ray in its direction may still return no light.
+  // Appends the samples of one source as seen from a point, one for each of at most 64 parts. Appends none if
+  // the source cannot light the point: it faces away, or the point is beyond its reach or outside its cone. A
+  // sample that misses the source is omitted. For a virtual source only the first relay is tested; a ray in
+  // the sample's direction may still return no light.
   void sample(LightId source, const V3d& point, const SourceSampling& how, Random& random,
               std::vector<SourceSample>& samples) const {
-    // Most sources face away or lie behind the surface, and most images shine elsewhere. These tests are
-    // inline because they save the call in most cases.
+    // Inline because it usually avoids a call: most sources face away or lie behind the surface, and most
+    // virtual sources light other places.
     static_assert(kLightForms == 8, "Does it shine to one side only?");
     const LightSource& light = sources_[source];
     const V3d towards = light.isDistant() ? light.center : light.center - point;
@@ -66,7 +67,7 @@ class LightSources {
   }
 
  private:
-  // Whether a point lies outside a virtual source's beam by more than rounding. Needs no square root.
+  // Whether a point surely lies outside a virtual source's beam, despite rounding. Uses no square root.
   static bool surelyBeside(const LightSource& light, const V3d& towards) {
     const double along = -towards.dot(light.beam.axis), cosine = light.beam.cosine;
     return along < 0 || along * along < (1 - 1e-12) * cosine * cosine * towards.length2();

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// A thousandth of the shape's size, but far enough that the tracer does not take the shape for the surface
-// that the ray starts on.
+// A thousandth of the shape's size, but large enough that the tracer does not treat the shape as the surface
+// on which the ray starts.
 double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); }
 
 SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& random) {
