@@ -1,5 +1,5 @@
 #pragma once
-// The meaning of the values that a color may have besides red, green and blue.
+// The meaning of the values that a color may have in addition to red, green and blue.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,15 +8,15 @@ namespace rsphere {
 
 struct BandScheme {
   std::vector<uint8_t> channel;  // of each value: 0 red, 1 green, 2 blue
-  // False: the values are the bands of a spectrum. True: each group of three, red, green and blue, is the
-  // part of the color that is due to one contributor, such as a goal or a lamp. The parts add up to the
-  // color, except for light without a contributor.
+  // False: the values are the bands of a spectrum. True: each three values (red, green, blue) are the part of
+  // the color due to one contributor, such as a goal or a lamp. The parts add up to the color, except for
+  // light without a contributor.
   bool ofContributors = false;
 
   size_t count() const { return channel.size(); }
 };
 
-// The scheme for the parts of this number of contributors. The same number always returns the same object,
+// The scheme for the parts of this number of contributors. Calls with the same number return the same object,
 // which exists until the program ends. Thread-safe.
 const BandScheme& partsOf(size_t contributors);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The CIE's curves, at steps of 1 nm.
+// Spectral curves of the CIE, in steps of 1 nm.
 #include <span>
 
 namespace rsphere {

@@ -10,20 +10,20 @@
 namespace rsphere {
 namespace {
 
-// The rooms of blocks: for what one contributor gives, so that a block lies in one line of the processor's
-// cache, and for all bands of a spectrum. Others have room for all values of their scheme.
+// Capacities of blocks: one for the part of one contributor, so that a block fits into one cache line, and
+// one for all bands of a spectrum. Larger blocks have room for all values of their scheme.
 constexpr size_t kOnePart = 3, kUsualRoom = kMostBands;
 constexpr size_t kLargeRoom = 2;
 size_t classOf(size_t room) { return room <= kOnePart ? 0 : room <= kUsualRoom ? 1 : kLargeRoom; }
 
 }  // namespace
 
-// The values from number `first` to before `end` follow the block. All others are 0. `room`: the number of
-// values that there is memory for.
+// The header of a block. It is followed by the values from index `first` to before `end`; all others are 0.
+// room: number of values for which memory is allocated.
 struct Bands::Block {
   union {
     const BandScheme* scheme;
-    Block* next;  // while it is not in use
+    Block* next;  // while the block is unused
   };
   uint32_t room, first, end, unused;
 
@@ -33,9 +33,9 @@ struct Bands::Block {
   bool isWhole() const { return first == 0 && end == scheme->count(); }
 };
 
-// Blocks that a thread has given back, since a path makes and drops dozens of them at each surface. There is
-// a list for each class of rooms. What outlives the thread's objects, such as colors of static ones, is given
-// back to the heap.
+// Unused blocks of a thread, with a list for each capacity. They are kept because a path allocates and frees
+// dozens of blocks at each surface. Blocks that outlive the objects of the thread, such as colors of static
+// objects, are returned to the heap.
 struct Bands::Spares {
   static thread_local std::array<Block*, kLargeRoom + 1> first;
   static thread_local bool closed;
@@ -48,7 +48,7 @@ struct Bands::Spares {
         while (block) ::operator delete(std::exchange(block, block->next));
     }
   };
-  // A block with nothing in it.
+  // An empty block.
   static Block* take(const BandScheme& scheme, size_t room) {
     const size_t kind = classOf(room);
     Block*& spare = first[kind];
@@ -58,7 +58,8 @@ struct Bands::Spares {
       spare = block->next;
     } else {
       static thread_local Closer closer;
-      closer.open = true;  // makes this thread construct it, so that it is destroyed when the thread ends
+      closer.open = true;  // this access constructs the thread's object, so that it is destroyed when the
+                           // thread ends
       if (kind < kLargeRoom) room = kind == 0 ? kOnePart : kUsualRoom;
       block = static_cast<Block*>(::operator new(sizeof(Block) + room * sizeof(double)));
       block->room = static_cast<uint32_t>(room);
@@ -82,8 +83,8 @@ Bands::Bands(const BandScheme& scheme)
   if (!scheme.ofContributors) cover(0, scheme.count());
 }
 
-// Makes the values from `begin` to before `end`, and all between these and the others, ones that may differ
-// from 0; new ones are 0. Returns that of `begin`.
+// Extends the stored values so that they include those from `begin` to before `end`; new ones are 0. Returns
+// the address of the value at `begin`.
 double* Bands::cover(size_t begin, size_t end) {
   Block& old = *block_;
   if (old.first <= begin && end <= old.end) return old.values() + (begin - old.first);
@@ -104,7 +105,7 @@ double* Bands::cover(size_t begin, size_t end) {
   return block->values() + (begin - first);
 }
 
-// Makes the values that may differ from 0 the same as those of another block; they are not set.
+// Stores the same range of values as another block, without setting them.
 double* Bands::cover(const Block& like) {
   if (block_ == &like) return block_->values();
   if (block_ && block_->room < like.filled()) release();
@@ -167,11 +168,11 @@ Color::Color(Bands bands) : bands_(std::move(bands)) {
 Bands Color::bandsIn(const BandScheme& scheme) const {
   assert(!bands_ || &bands_.scheme() == &scheme);
   Bands all = bands_ ? bands_ : termsIn(scheme);
-  all.values();  // also those that are 0
+  all.values();  // also stores values that are 0
   return all;
 }
 
-// The bands, or those that a color without bands has as a factor.
+// The bands of a factor: for a color without bands, those of its channels.
 Bands Color::factorsIn(const BandScheme& scheme) const {
   if (bands_) return bandsIn(scheme);
   Bands expanded(scheme);
@@ -205,7 +206,7 @@ Color Color::dividedAs(const Color& other) const {
     const auto c = static_cast<int>(i % 3);
     values[i] = sum[c] > 0 ? values[i] / sum[c] * (*this)[c] : 0;
   }
-  // What has none where there is none to compare with is the first contributor's.
+  // If the other color has no parts in a channel, all of the channel goes to the first contributor.
   for (int c = 0; c < 3; ++c)
     if (!(sum[c] > 0)) values[static_cast<size_t>(c)] = (*this)[c];
   return Color(rgb(), std::move(divided));
@@ -228,14 +229,14 @@ void Color::addBands(const Color& other, double factor) {
   for (size_t i = 0; i < values.size(); ++i) values[i] += factor * other[scheme.channel[i]];
 }
 
-// a plus factor times b, of which at least one has bands.
+// Sets the bands to a + factor * b, at least one of which has bands.
 void Color::setSum(const Color& a, const Color& b, double factor) {
   Color sum(a);
   sum.addBands(b, factor);
   bands_ = std::move(sum.bands_);
 }
 
-// What a color without bands has as a term of a sum.
+// The bands of a term of a sum, for a color without bands.
 Bands Color::termsIn(const BandScheme& scheme) const {
   return scheme.ofContributors ? Bands(scheme) : factorsIn(scheme);
 }
@@ -250,7 +251,7 @@ void Color::setProduct(const Color& a, const Color& b) {
   const double* const values = from.values();
   double* const to = bands_.cover(from);
   if (from.scheme->ofContributors) {
-    // The parts are whole: each from red on.
+    // The stored range contains whole parts, so that it begins with red.
     for (size_t i = 0; i < from.filled(); i += 3) {
       to[i] = values[i] * second.x;
       to[i + 1] = values[i + 1] * second.y;
@@ -262,7 +263,7 @@ void Color::setProduct(const Color& a, const Color& b) {
   for (size_t i = 0; i < from.filled(); ++i) to[i] = values[i] * second[channel[i]];
 }
 
-// Only values that both may have differ from 0.
+// Only values stored in both blocks can differ from 0.
 void Color::setProductOfBands(const Bands::Block& a, const Bands::Block& b) {
   Bands product(*a.scheme);
   const size_t first = std::max(a.first, b.first), end = std::min(a.end, b.end);

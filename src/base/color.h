@@ -1,6 +1,6 @@
 #pragma once
-// Colors: red, green and blue, and besides them in a spectral run (-cs above 3) the bands of a spectrum, or
-// the parts of the color that contributors give (-Sp).
+// Colors: red, green and blue, and in addition the bands of a spectrum (-cs above 3), or the parts due to
+// contributors (-Sp).
 #include <Imath/ImathVec.h>
 
 #include <algorithm>
@@ -15,13 +15,12 @@ using Imath::V3d;
 struct BandScheme;
 struct SpectralSampling;
 
-// The bands of a color (band_scheme.h), or none. A value like any other: copies are independent of each
-// other. Of the parts of contributors, only those from the first to the last that may differ from 0 take
-// memory and time.
+// The bands of a color (band_scheme.h), or none. Copies are independent of each other. For parts of
+// contributors, only the range from the first to the last part that may differ from 0 takes memory and time.
 class Bands {
  public:
   constexpr Bands() = default;
-  // All 0. The scheme must exist as long as the bands and all copies of them.
+  // All 0. The scheme must exist as long as any copy of the bands.
   explicit Bands(const BandScheme& scheme);
   Bands(const Bands& other) : block_(nullptr) {
     if (other.block_) [[unlikely]]
@@ -43,10 +42,10 @@ class Bands {
   }
 
   explicit operator bool() const { return block_ != nullptr; }
-  // REQUIRES bands, as do the next four.
+  // The following four functions REQUIRE bands.
   const BandScheme& scheme() const;
   const SpectralSampling& sampling() const;  // REQUIRES bands of a spectrum
-  // All values. Those of a spectrum begin with the longest wavelength. REQUIRES, if it is constant: bands of
+  // All values; those of a spectrum begin with the longest wavelength. The constant version REQUIRES bands of
   // a spectrum, or a result of Color::bandsIn().
   std::span<double> values();
   std::span<const double> values() const;
@@ -64,14 +63,14 @@ class Bands {
   Block* block_ = nullptr;
 };
 
-// A color without bands has in each band the value of the band's channel (BandScheme::channel), so that gray
-// is the same in all of them, and arithmetic that mixes both kinds of colors is exact. Where a color has the
-// bands of a spectrum, red, green and blue are what the same arithmetic makes of the means of their bands:
-// estimates for decisions that change no expected value (weights, samples), which are 0 only where all of the
-// bands are. What is written is computed from the bands.
+// In arithmetic with colors that have bands, a color without bands has in each band the value of its channel
+// (BandScheme::channel). Gray is therefore equal in all bands, and mixed arithmetic is exact. In a color with
+// bands of a spectrum, red, green and blue result from the same arithmetic on the means of their bands. They
+// are estimates, used for decisions that do not change expected values (weights, samples), and are 0 only if
+// all bands are. Output is computed from the bands.
 //
-// Where a color has the parts of contributors, red, green and blue are the same as without them. A color
-// without parts that is added has no contributor; one that is a factor applies to all parts alike.
+// In a color with parts of contributors, red, green and blue are the same as without parts. An added color
+// without parts has no contributor; a factor without parts applies to all parts equally.
 class Color {
  public:
   double x = 0, y = 0, z = 0;  // red, green, blue
@@ -80,29 +79,29 @@ class Color {
   constexpr Color(double red, double green, double blue) : x(red), y(green), z(blue) {}
   explicit constexpr Color(double gray) : x(gray), y(gray), z(gray) {}
   explicit constexpr Color(const V3d& rgb) : x(rgb.x), y(rgb.y), z(rgb.z) {}
-  // REQUIRES bands of a spectrum. Red, green and blue are the means of theirs.
+  // REQUIRES bands of a spectrum. Red, green and blue become the means of their bands.
   explicit Color(Bands bands);
-  // With bands, or without any if they are none.
+  // If `bands` is empty, the color has none.
   Color(const V3d& rgb, Bands bands) : x(rgb.x), y(rgb.y), z(rgb.z), bands_(std::move(bands)) {}
 
   double& operator[](int channel) { return (&x)[channel]; }
   const double& operator[](int channel) const { return (&x)[channel]; }
-  // Red, green and blue alone.
+  // Only red, green and blue.
   V3d rgb() const { return V3d(x, y, z); }
 
   const Bands& bands() const { return bands_; }
-  // Those of the color as a term of a sum: without bands, those of its channels, or parts that are 0.
-  // REQUIRES that its bands, if it has any, have this scheme.
+  // The bands of the color as a term of a sum. A color without bands has those of its channels, or parts that
+  // are 0. REQUIRES that existing bands have this scheme.
   Bands bandsIn(const BandScheme& scheme) const;
-  // A color that one contributor gives. The scheme must exist as long as Bands() says.
+  // A color due to one contributor. The scheme must exist as long as any copy of the color.
   static Color ofContributor(const V3d& rgb, size_t contributor, const BandScheme& parts);
-  // The part that a contributor gives, without bands; black if the color has no parts.
+  // The part due to a contributor, without bands; black if the color has no parts.
   Color part(size_t contributor) const;
-  // The color with parts in the proportions of those of another color, which has some.
+  // This color, divided into parts in the proportions of another color. REQUIRES that the other has parts.
   Color dividedAs(const Color& other) const;
-  // The smallest and the largest value of its bands, or of its channels if it has parts. REQUIRES bands.
+  // The smallest and the largest value of its bands; of its channels if it has parts. REQUIRES bands.
   std::pair<double, double> extremesOfBands() const;
-  // Has the processor fetch the bands, which a later use will not wait for then.
+  // Prefetches the bands into the processor's cache for later use.
   void prefetch() const {
     if (bands_) [[unlikely]]
       __builtin_prefetch(bands_.block_);
@@ -153,7 +152,7 @@ class Color {
     return *this;
   }
 
-  // Adds a * factor or a * b, for sums that most of the time goes into.
+  // Adds a * factor or a * b. These functions take most of the time spent on colors.
   void addScaled(const Color& a, double factor) {
     if (bands_ || a.bands_) [[unlikely]]
       addBands(a, factor);
@@ -214,7 +213,7 @@ class Color {
   }
 
  private:
-  // Each of these leaves red, green and blue as they are, and is called before they change.
+  // These functions do not change red, green and blue, and are called before those change.
   void addBands(const Color& other, double factor);
   void multiplyBands(const Color& other);
   void divideBands(const Color& other);
@@ -230,7 +229,7 @@ class Color {
   Bands bands_;
 };
 
-// The color whose value in each channel and band is f(value of a, value of b), and the same for three.
+// The color whose value in each channel and band is f of the values of a and b; the same for three colors.
 template <class F>
 Color combined(const Color& a, const Color& b, const F& f) {
   const V3d rgb(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
@@ -263,8 +262,8 @@ inline double brightness(const Color& c) { return kRedWeight * c.x + kGreenWeigh
 inline double brightnessOfProduct(const Color& a, const Color& b) {
   return kRedWeight * (a.x * b.x) + kGreenWeight * (a.y * b.y) + kBlueWeight * (a.z * b.z);
 }
-// The largest and the smallest value of the bands of a spectrum, or of red, green and blue where there are
-// none: a mean that is dark may hide a bright band.
+// The largest and the smallest value of the bands of a spectrum, or of red, green and blue if there are none.
+// Bands are examined because a dark mean may hide a bright band.
 inline double maxChannel(const Color& c) {
   if (c.bands()) [[unlikely]]
     return c.extremesOfBands().second;
@@ -275,8 +274,8 @@ inline double minChannel(const Color& c) {
     return c.extremesOfBands().first;
   return std::min({c.x, c.y, c.z});
 }
-// Whether red, green, blue and all bands are 0 or less. The bands are looked at last, since few colors are
-// black: a band may be bright where the mean of its channel is not, if others are negative.
+// Whether red, green, blue and all bands are 0 or less. If some bands are negative, a band may be bright
+// although the mean of its channel is not. Bands are examined last, because few colors are black.
 inline bool isBlack(const Color& c) {
   return !(c.x > 0 || c.y > 0 || c.z > 0) && (!c.bands() || !(c.extremesOfBands().second > 0));
 }

@@ -20,7 +20,8 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
   const double longest = std::max(spectrum.first, spectrum.last);
   const double step = std::abs(spectrum.last - spectrum.first) / static_cast<double>(count);
   const double width = sampling.width();
-  // Positions are distances (nm) from the longest wavelength of the bands, in which both sequences rise.
+  // Positions are distances (nm) from the longest wavelength of the bands. Both sequences are ascending in
+  // them.
   const double offset = sampling.longest - longest;
   for (size_t i = 0; i < count; ++i) {
     const double value = spectrum.values[falls ? i : count - 1 - i];
@@ -38,7 +39,7 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
   return bands;
 }
 
-// A linear curve has its mean over an interval in the middle of it.
+// The mean of a linear curve over an interval is its value at the middle.
 Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling) {
   Bands bands(sampling);
   const std::span<double> means = bands.values();

@@ -11,7 +11,7 @@ inline constexpr double kPhotopicEfficacy = 179;
 // Fresnel's reflectance of glass at normal incidence, for the refractive index 1.5.
 inline constexpr double kGlassReflectance = .04;
 
-// Shares of light, cosines, slopes and roughnesses below this are treated as 0. RADIANCE's own figure.
+// Threshold below which shares of light, cosines, slopes and roughnesses are treated as 0. RADIANCE's value.
 inline constexpr double kNegligible = 1e-6;
 
 }  // namespace rsphere

@@ -9,11 +9,11 @@
 namespace rsphere {
 namespace {
 
-// The wavelength by which RADIANCE's table is displaced from the CIE's (nm), as in BandWeights.
+// The shift of RADIANCE's table relative to the CIE's (nm), as in BandWeights.
 constexpr double kColorShift = 1.5;
 
-// The integral of a curve from its shortest wavelength on, 1 at its longest. The values of the table are 1 nm
-// apart. Between two of them the curve is taken as constant, at their mean.
+// The cumulative integral of a curve, normalized to 1 at its longest wavelength. Between two values of the
+// table, 1 nm apart, the curve is constant at their mean.
 class Cumulative {
  public:
   explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), upTo_{0} {
@@ -72,8 +72,8 @@ double melanopic(const Spectrum& spectrum) {
   return curve.of(spectrum);
 }
 
-// The limits of bands are rounded down to whole nanometers. The ends of the spectrum are rounded to single
-// precision first. Otherwise a rounding error could turn a limit of 500 nm, for example, into one of 499 nm.
+// The limits of bands are rounded down to whole nanometers. Before that, the ends of the spectrum are rounded
+// to single precision; otherwise a rounding error could turn a limit of 500 nm, for example, into 499 nm.
 V3d tristimulusInRadiance(const Spectrum& spectrum) {
   const size_t count = spectrum.values.size();
   const bool falls = spectrum.first > spectrum.last;

@@ -1,11 +1,11 @@
 #pragma once
-// The CIE's observers: integrals of spectra.
+// The CIE's observers: weighted integrals of spectra.
 //
-// A spectrum is given by bins of equal width: values[0] is the mean from `first` (nm) on, the last value the
-// mean up to `last` (nm); first may be above or below last. It is 0 beyond them.
+// A spectrum is given by bins of equal width between `first` and `last` (nm), which may be in either order.
+// Each value is the mean of a bin; the first value is that of the bin at `first`. It is 0 outside.
 //
-// All integrals are normalized so that they are 1 for a spectrum that is 1 at all wavelengths.
-// Source: CIE 15 (X, Y, Z of 1931, V'(lambda)), CIE S 026 (melanopic).
+// All integrals are normalized to 1 for a spectrum that is 1 at all wavelengths. Source: CIE 15 (X, Y, Z of
+// 1931, V'(lambda)), CIE S 026 (melanopic).
 #include <Imath/ImathVec.h>
 
 #include <span>

@@ -5,7 +5,7 @@
 
 namespace rsphere {
 
-// Combines functions to one visitor of a variant.
+// Combines functions into one visitor of a variant.
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
@@ -13,14 +13,13 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-// Calls one of the functions with the value that a variant holds: the one that takes its type. Fails to
-// compile for a type that none of them takes, as long as none takes plain `auto`. Types with the same answer
-// share one function by OneOf, which lists them:
+// Calls the function that accepts the type of a variant's value. Does not compile if no function accepts one
+// of the types, as long as none takes plain `auto`. Types with a common function are listed with OneOf:
 //   match(material, [](const Glass&) { return true; }, [](const OneOf<Light, Glow> auto&) { return false; })
-// Inline, since functions that are called for each ray match their shapes.
+// Inline, because functions called for each ray match their shapes.
 template <class Variant, class... Functions>
 [[gnu::always_inline]] inline decltype(auto) match(Variant&& variant, Functions... functions) {
-  using std::visit;  // ShapeRef has its own
+  using std::visit;  // ShapeRef has a separate visit()
   return visit(Overloaded{std::move(functions)...}, std::forward<Variant>(variant));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Conversions between CIE X, Y, Z and the red, green and blue of primaries.
+// Conversions between CIE X, Y, Z and red, green and blue for given primaries.
 #include <Imath/ImathVec.h>
 
 #include <array>
@@ -10,7 +10,7 @@ using Imath::V3d;
 
 using Matrix = std::array<std::array<double, 3>, 3>;  // rows
 
-// x y of red, green, blue and white.
+// Chromaticities x y of red, green, blue and white.
 using Primaries = std::array<double, 8>;
 
 // RADIANCE's nominal monitor, with equal-energy white.
@@ -28,8 +28,8 @@ V3d xyzOfChromaticity(double x, double y);
 // primaries that do not lie on a line.
 Matrix xyzFromRgb(const Primaries& primaries);
 
-// Mixes a color with just enough gray of the same luminance (of white, 1) that no channel is negative. Black
-// if the luminance is negative.
+// Mixes a color with gray of the same luminance (of white: 1) until no channel is negative. Black if the
+// luminance is negative.
 V3d intoGamut(const V3d& color, double luminance);
 
 }  // namespace rsphere

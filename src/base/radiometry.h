@@ -1,10 +1,10 @@
 #pragma once
-// The quantities of light transport as types, so that an irradiance or a coefficient handed to code that
-// expects a radiance does not compile.
+// The quantities of light transport as types: passing an irradiance or a coefficient to code that expects a
+// radiance does not compile.
 //
-// Importance is transported as Radiance: goals emit importance 1 as light sources emit radiance, and the same
-// paths carry both with the same coefficients. Only those of refraction may differ: see scatter() in
-// shade/scattering.h. The two never meet, because light sources emit nothing in a scene with goals.
+// Importance is transported as Radiance: goals emit importance 1 like light sources emit radiance, and the
+// same paths transport both with the same coefficients. Only those of refraction may differ: see scatter() in
+// shade/scattering.h. Both never occur together, because light sources emit nothing in a scene with goals.
 #include <type_traits>
 #include <utility>
 
@@ -12,9 +12,9 @@
 
 namespace rsphere {
 
-// A color that is a physical quantity. Kinds do not convert into each other, and Color converts only where
-// its kind is named. Quantities of the same kind can be added, and any can be scaled by a number or by a
-// Coefficient. Other arithmetic within a function uses `color`.
+// A color that is a physical quantity. Kinds are not convertible into each other, and Color is converted only
+// where the kind is named. Quantities of the same kind can be added, and all can be scaled by a number or a
+// Coefficient. For other arithmetic within a function, use `color`.
 template <class Kind>
 struct Quantity {
   Color color{0, 0, 0};
@@ -49,7 +49,7 @@ struct Quantity {
 
 using Radiance = Quantity<struct RadianceKind>;      // W/sr/m2
 using Irradiance = Quantity<struct IrradianceKind>;  // W/m2; any integral of radiance over directions
-// A share of a quantity that reflection, transmission or sampling leaves, without a unit.
+// The fraction of a quantity that remains after reflection, transmission or sampling; dimensionless.
 using Coefficient = Quantity<struct CoefficientKind>;
 
 template <class Kind>
@@ -65,11 +65,11 @@ Quantity<Kind>& operator*=(Quantity<Kind>& a, const Coefficient& share) {
   return a;
 }
 
-// The irradiance by a radiance from a solid angle (sr) on a surface perpendicular to it.
+// The irradiance of a surface perpendicular to a radiance from a small solid angle (sr).
 inline Irradiance irradianceFrom(const Radiance& radiance, double solidAngle) {
   return Irradiance(radiance.color * solidAngle);
 }
-// The mean radiance over a solid angle (sr) from which an irradiance comes.
+// The mean radiance from a solid angle (sr) that causes an irradiance.
 inline Radiance meanRadiance(const Irradiance& irradiance, double solidAngle) {
   return Radiance(irradiance.color / solidAngle);
 }

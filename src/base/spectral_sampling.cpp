@@ -11,13 +11,13 @@
 namespace rsphere {
 namespace {
 
-// Wavelengths (nm) of the limits between red, green and blue, and of the peaks of the outer channels'
-// responses, as in RADIANCE.
+// Wavelengths (nm), as in RADIANCE: limits between red, green and blue, and peaks of the red and blue
+// responses.
 constexpr double kRedFrom = 588, kGreenFrom = 480;
 constexpr double kRedPeak = 607, kBluePeak = 469;
 
-// By how much longer wavelengths seem in RADIANCE's tables than in the CIE's (nm): found by comparing
-// rtrace's output for narrow bands with the CIE's curves.
+// Shifts of wavelengths in RADIANCE's tables relative to the CIE's (nm). Found by comparing rtrace's output
+// for narrow bands with the CIE's curves.
 constexpr double kScotopicShift = -.5, kMelanopicShift = .5;
 
 SpectralSampling makeSampling(int bands, double shortest, double longest) {

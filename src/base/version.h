@@ -2,11 +2,11 @@
 
 namespace rsphere {
 
-// The same as in the top CMakeLists.txt; a test compares them.
+// A test compares it with the top CMakeLists.txt.
 inline constexpr const char* kVersion = "1.0.0";
 
-// The version of RADIANCE whose rtrace is matched by ray mode. Options, records, header and messages were
-// compared with it.
+// The version of RADIANCE that ray mode matches. Options, records, header and messages were compared with its
+// rtrace.
 inline constexpr const char* kRadianceVersion = "6.1a";
 
 }  // namespace rsphere

@@ -14,7 +14,7 @@ namespace {
 
 namespace calc = rad::calc;
 
-// The parameters of -p as definitions. Throws rad::Error if they are no list of numbers by name.
+// Converts the parameters of -p to definitions. Throws rad::Error if they are not a list of named numbers.
 std::vector<std::string> definitionsOf(const std::string& parameters) {
   std::vector<std::string> definitions;
   for (size_t begin = 0; begin < parameters.size();) {
@@ -41,7 +41,7 @@ void define(calc::Library& library, const BinDefinitions& definitions) {
 
 void put(double* to, const V3d& v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
-// World coordinates are those of the expression.
+// The expression uses world coordinates.
 void setInputs(const RayEnd& end, std::array<double, calc::kInputs>& in) {
   put(&in[calc::Dx], end.ray.direction);
   put(&in[calc::Nx], end.hit.normal);

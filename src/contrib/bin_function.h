@@ -14,15 +14,15 @@
 
 namespace rsphere {
 
-// What an expression of a bin may use.
+// Definitions that an expression of bins may use.
 struct BinDefinitions {
-  std::vector<SharedDefinitions> shared;  // -e and -f, in their order
-  std::string parameters;                 // -p: "name=value" between commas, colons or semicolons
+  std::vector<SharedDefinitions> shared;  // -e and -f, in the order given
+  std::string parameters;                 // -p: "name=value", separated by commas, colons or semicolons
 
   bool operator==(const BinDefinitions& other) const;
 };
 
-// What of a ray an expression may use: all that function files may, or its direction alone.
+// The properties of a ray that an expression may use: all variables of function files, or only the direction.
 enum class BinInputs : uint8_t { ray, direction };
 
 // Working memory for the evaluations of one thread.
@@ -31,14 +31,14 @@ struct BinScratch {
   std::array<double, rad::calc::kInputs> inputs{};
 };
 
-// The number of the bin that a ray belongs to, as a function of where it hits (Px, Py, Pz), of its unit
-// direction (Dx, Dy, Dz) and of the other variables of function files, in the world. Immutable.
+// The number of the bin to which a ray belongs, as a function of the point that it hits (Px, Py, Pz), its
+// unit direction (Dx, Dy, Dz) and the other variables of function files, in world coordinates. Immutable.
 class BinFunction {
  public:
   explicit BinFunction(std::shared_ptr<const rad::calc::Program> program) : program_(std::move(program)) {}
 
-  // The value at the end of a ray, to the nearest whole number. Empty if it is not a number. Throws
-  // rad::Error if the expression uses a name that does not exist.
+  // The value at the end of a ray, rounded to a whole number. Empty if it is not a number. Throws rad::Error
+  // if the expression uses an undefined name.
   std::optional<double> at(const RayEnd& end, BinScratch& scratch) const;
   // The same for a unit direction. REQUIRES: compiled for BinInputs::direction.
   std::optional<double> at(const V3d& direction, BinScratch& scratch) const;
@@ -55,7 +55,8 @@ class BinFunction {
 // Compiles expressions. Those with the same definitions share one library.
 class BinFunctions {
  public:
-  // Throws rad::Error if a definition or the expression is wrong; option: the one that gives the expression.
+  // option: the option that contains the expression, for messages. Throws rad::Error if a definition or the
+  // expression is invalid.
   BinFunction compile(std::string_view option, const std::string& expression,
                       const BinDefinitions& definitions, BinInputs inputs = BinInputs::ray);
 

@@ -3,11 +3,11 @@
 
 namespace rsphere {
 
-// Sets the defaults of RADIANCE 6.1's rcontrib, where they differ from those of rtrace.
+// Sets those defaults of RADIANCE 6.1's rcontrib that differ from rtrace's.
 void setContributionDefaults(RayOptions& options);
 
-// Switches off what contributions cannot have: interpolated light, which has no sources any more, and
-// untested sources, which have no shadow.
+// Disables options that contributions cannot use: interpolated light, because its sources are unknown, and
+// untested sources, because they ignore shadows.
 void limitToContributions(RayOptions& options);
 
 }  // namespace rsphere

@@ -5,20 +5,20 @@
 
 namespace rsphere {
 
-// Sums of what rays contribute, for those columns only that something was added to. Its memory is in
-// proportion to their number, however many columns a record has.
+// Sums of the contributions of rays. Only columns with contributions are stored, so that the memory does not
+// depend on the number of columns in a record.
 class ContributionList {
  public:
-  // components: numbers of a contribution, 3 or one for each band.
+  // components: number of values of a contribution, 3 or one for each band.
   explicit ContributionList(int components);
 
-  // Adds a contribution to a column. REQUIRES components() numbers.
+  // Adds a contribution to a column. REQUIRES components() values.
   void add(uint32_t column, std::span<const double> contribution);
 
   int components() const { return static_cast<int>(components_); }
-  // In the order in which something was first added to them.
+  // The columns in the order of their first contribution.
   std::span<const uint32_t> columns() const { return columns_; }
-  // components() numbers for each of these columns.
+  // components() values for each of these columns.
   std::span<const double> values() const { return values_; }
 
   void clear();

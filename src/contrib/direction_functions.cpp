@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-constexpr double kMostBins = 100000;  // as zones of -Sz
+constexpr double kMostBins = 100000;  // the limit of -Sz
 
 }  // namespace
 

@@ -33,10 +33,12 @@ int Tracked::components() const {
   return sampling ? static_cast<int>(sampling->count()) : 3;
 }
 
-// Whether the surface of a ray is what the ray brings light from. A source that is not black looks black to
-// rays whose light next-event estimation brings instead, and to shadow rays that are aimed at another. An
-// illum shows its own light to shadow rays alone; others bring the light of what they find in its place. As
-// in RADIANCE, coefficients include paths through an illum, and to the dark back of a source.
+// Whether the value of a ray is light from the surface that it hit.
+// - An emitting source is black for rays whose light next-event estimation already includes, and for shadow
+//   rays aimed at another source.
+// - An illum shows its own light only to shadow rays. The value of any other ray is light from behind the
+//   illum or of its alternate material.
+// - As in RADIANCE, coefficients also include paths through an illum, and to the dark back of a source.
 bool Tracked::counts(const RayEnd& end, const RayResult& result) const {
   const LightId aimedAt = end.ray.aimedAt;
   if (aimedAt != kNone && prepared_.lights().all()[aimedAt].surface != end.hit.surface) return false;

@@ -1,6 +1,6 @@
 #pragma once
-// Contributions of tracked modifiers to rays: what each surface with such a modifier sends along each path,
-// or the coefficient of the path to it, added up by bins.
+// Contributions of tracked modifiers to rays, summed by bins: the light that each surface with such a
+// modifier sends along each path, or the coefficient of that path.
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -18,35 +18,35 @@ namespace rsphere {
 struct TrackedModifier {
   std::string name;
   uint32_t bins = 1;
-  std::optional<BinFunction> bin;  // empty: all of its contributions are in bin 0
-  // Instead of a function: the bins are the zones that the directions of rays lie in which meet it.
+  std::optional<BinFunction> bin;  // empty: all contributions are in bin 0
+  // Used instead of a function: the bins are the zones of the directions in which rays hit the modifier.
   std::shared_ptr<const EqualZones> zones{};
 };
 
-// The quantity that is summed over all rays that meet a tracked modifier.
+// The quantity that is summed over all rays that hit a tracked modifier.
 enum class Contributed : uint8_t {
-  coefficients,  // the share of its radiance in that of the primary ray
-  values         // this share times its radiance
+  coefficients,  // factor with which its radiance enters the primary ray's
+  values         // this factor times its radiance
 };
 
-// Constant once constructed; any number of threads may use it at once.
+// Immutable after construction, and shared by all threads.
 class Tracked {
  public:
-  // Keeps a reference to the scene. warn: gets one line for each modifier with a bin that does not exist;
+  // Keeps a reference to the scene. warn: receives one line for each modifier with an invalid bin number,
   // from any thread.
   Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> modifiers, Contributed what,
           rad::Warn warn = {});
 
   const std::vector<TrackedModifier>& modifiers() const { return modifiers_; }
-  // A record has a column for each bin of each modifier: modifiers in their order, then bins.
+  // A record has a column for each bin of each modifier: all bins of the first modifier, then of the next.
   uint32_t columns() const { return columns_; }
   uint32_t firstColumn(size_t modifier) const { return firstColumn_[modifier]; }
-  // The numbers of a column: 3, or one for each band of a spectral run.
+  // The number of values in a column: 3, or one for each band of a spectral run.
   int components() const;
 
-  // Adds what a ray of a path contributes: nothing if its surface is not tracked, if it is a shadow ray that
-  // did not reach its source, or if it hit a light source whose light shadow rays bring. Called for each ray
-  // that an observer is shown with ShownShadows::thatArrive.
+  // Adds the contribution of a ray of a path. There is none if its surface is not tracked, if it is a shadow
+  // ray that did not reach its source, or if it hit a light source that is sampled by shadow rays. Called for
+  // each ray that an observer receives with ShownShadows::thatArrive.
   void add(const RayEnd& end, const RayResult& result, BinScratch& scratch, ContributionList& to) const;
 
  private:
@@ -60,20 +60,20 @@ class Tracked {
   std::vector<uint32_t> firstColumn_;
   uint32_t columns_ = 0;
   static constexpr uint32_t kNotTracked = ~uint32_t{0};
-  std::vector<uint32_t> modifierOf_;  // by number of a finish; kNotTracked
+  std::vector<uint32_t> modifierOf_;  // by index of a finish; kNotTracked: none
   mutable std::vector<std::atomic<bool>> warned_;
 };
 
-// Traces rays and adds up what contributes to them. Each thread needs its own.
+// Traces rays and sums the contributions to them. Each thread needs its own.
 class ContributionTracer {
  public:
   // Keeps references. REQUIRES: nothing is interpolated (-aa 0), all shadows are tested (-dt 0, -Ss 0), and
-  // the tracer is one of ray mode. Then the values of all that emits, the ambient value being 0, sum to the
+  // the tracer is one for ray mode. If the ambient value is 0, the values of all emitters then sum to the
   // radiance along the ray.
   ContributionTracer(PathTracer tracer, const Tracked& tracked)
       : tracer_(std::move(tracer)), tracked_(tracked), list_(tracked.components()) {}
 
-  // The contributions to a primary ray, valid until the next call. As PathTracer::trace().
+  // The contributions to a primary ray, valid until the next call. Parameters: see PathTracer::trace().
   const ContributionList& trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
 
   int components() const { return tracked_.components(); }

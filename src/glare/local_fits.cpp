@@ -11,7 +11,7 @@ namespace {
 constexpr size_t kMostTerms = 6;
 using Terms = std::array<double, kMostTerms>;
 
-// Keeps normal equations regular if the directions lie in a line; relative to their number.
+// Keeps normal equations regular if all directions lie on a line; relative to the number of directions.
 constexpr double kRidge = 1e-9;
 
 // Coordinates in which directions have mean 0 and variance 1 along both axes.

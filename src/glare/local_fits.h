@@ -1,5 +1,5 @@
 #pragma once
-// Smooth values over the sphere from noisy ones.
+// Smooths noisy values on the sphere.
 #include <Imath/ImathVec.h>
 
 #include <cstddef>
@@ -10,11 +10,11 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// What the others say about each value: the directions (unit) are divided into cells of at most `most`,
-// halved across their longer side until they fit; in each, a polynomial of two angles is fitted by least
-// squares to all values but one and evaluated at the direction of that one. So its own noise has no part in
-// the result. The polynomial is quadratic in cells of 24 or more directions, linear from 12, and constant in
-// smaller ones. A value that is alone in its cell is kept. most: at least 1.
+// Estimates each value from the other values near it, so that its own noise has no influence (leave-one-out).
+// The directions (unit) are divided into cells: each is halved across its longer side until it has at most
+// `most` directions (at least 1). In a cell, a polynomial of two angles is fitted by least squares to all
+// values but one, and evaluated at the direction of that one. The polynomial is quadratic in cells of 24 or
+// more directions, linear from 12, and constant in smaller ones. A value that is alone in its cell is kept.
 std::vector<double> fitsOfOthers(std::span<const V3d> directions, std::span<const double> values,
                                  size_t most);
 

@@ -16,7 +16,7 @@ NearbyDirections::Cell NearbyDirections::cellOf(const V3d& direction) const {
   return {at(direction.x), at(direction.y), at(direction.z)};
 }
 
-// Cells are counted from the corner (-2, -2, -2), 21 bits for each axis.
+// Cells are numbered from the corner (-2, -2, -2), with 21 bits for each axis.
 uint64_t NearbyDirections::key(const Cell& cell) {
   constexpr int64_t kMiddle = int64_t{1} << 20;
   const auto part = [](int64_t n) {

@@ -12,13 +12,13 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// Finds those of a number of directions (unit) that are near another. Keeps a reference to them.
+// Finds directions (unit) in a list that are close to a given one. Keeps a reference to the list.
 class NearbyDirections {
  public:
-  // angle: the largest between directions that are near each other, rad; above 0 and below pi.
+  // angle: the largest between directions that are close to each other, rad; above 0 and below pi.
   NearbyDirections(std::span<const V3d> directions, double angle);
 
-  // Appends those near `direction` to `taken` and removes them from this object.
+  // Moves all directions close to `direction` from this object to `taken`.
   void takeNear(const V3d& direction, std::vector<size_t>& taken);
 
  private:
@@ -33,9 +33,9 @@ class NearbyDirections {
   std::unordered_map<uint64_t, std::vector<size_t>> cells_;
 };
 
-// Divides directions into groups: those within `angle` (rad) of each other belong together, and so do those
-// that a chain of such steps connects. The number of the group for each direction, from 0 in the order in
-// which they occur.
+// Divides directions into connected groups: directions within `angle` (rad) of each other are in the same
+// group. Returns the group of each direction; groups are numbered from 0 in the order of their first
+// direction.
 std::vector<size_t> connectedGroups(std::span<const V3d> directions, double angle);
 
 }  // namespace rsphere

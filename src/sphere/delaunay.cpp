@@ -6,13 +6,13 @@
 namespace rsphere {
 namespace {
 
-// Directions farther apart than this cannot hide one another inside the hull: radii differ by at most
-// kUnitTolerance^2 / 8, and a chord of length h lies up to h^2/8 below the sphere. For vectors normalized in
+// Only directions closer together than this can hide one another inside the hull: a chord of length h lies up
+// to h^2/8 below the sphere, and radii differ by at most kUnitTolerance^2 / 8. For vectors normalized in
 // double precision, the distance is 4e-16.
 constexpr double kHiddenDistance = 2 * kUnitTolerance;
 
 // Six times the signed volume of the tetrahedron of a, b, p and the centre. It is computed from differences,
-// so it is accurate even if the three are close together.
+// so it is accurate even if a, b and p are close together.
 double sideOfArc(const V3d& aFromP, const V3d& bFromP, const V3d& p) { return aFromP.cross(bFromP).dot(p); }
 
 // The vector from the apex to another corner. parts: the sum of its absolute components.
@@ -28,11 +28,11 @@ inline void setPlane(Triangle& t, const V3d& apex, const Edge& u, const Edge& v)
   t.ny = n.y;
   t.nz = n.z;
   t.offset = n.dot(apex);
-  // The bound consists of two parts:
-  // - Rounding: the normal has 4 sqrt(2) roundings of |u||v|, used with p and with the apex; the two dot
-  //   products add 8 more.
-  // - Radii: each may be off by kUnitTolerance/2. At p this has the factor |n|, at a corner at most twice
-  //   the opposite edge.
+  // The error bound has two parts:
+  // - Rounding: the normal contains 4 sqrt(2) roundings of |u||v|, and is used with p and with the apex; the
+  //   two dot products add 8 more.
+  // - Radii: each may be off by kUnitTolerance/2. The effect is multiplied by |n| at p, and at a corner by at
+  //   most twice the opposite edge.
   const double m = u.parts, k = v.parts;
   t.bound = static_cast<float>(0x1p-48 * m * k + 0.51 * kUnitTolerance * (m * k + 4 * (m + k)) + 1e-36);
 }
@@ -79,15 +79,15 @@ void Delaunay::start(const std::array<Site, 4>& first) {
 
 // Inlined into insert(), its only caller, so that p stays in registers.
 [[gnu::always_inline]] inline std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
-  // A visibility walk: it crosses an edge that separates p from the triangle, until a circumcircle contains
-  // p. The walk ends if the hull contains the centre and all signs are right. Otherwise the step limit ends
-  // it, and the nearest site is searched for instead.
+  // A visibility walk: it crosses an edge that separates p from the triangle until a circumcircle contains p.
+  // It ends if the hull contains the centre and all signs are right. Otherwise the step limit ends it, and
+  // the nearest site is searched for instead.
   const std::uint32_t limit =
       64 + 4 * static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles.size())));
   std::uint32_t t = 0, from = kNone;
-  // The next site is usually near the last one. Of the triangles around that site, the walk starts at the one
-  // whose plane p is farthest beyond. The number of triangles examined is fixed, because an unpredictable
-  // loop end would cost more.
+  // The next site is usually near the last one. The walk starts at one of the triangles around the last site:
+  // the one with p farthest beyond its plane. A fixed number of triangles is examined, because an
+  // unpredictable end of the loop would take longer.
   double farthest = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kStarts; ++k) {
     const std::uint32_t start = hole_[k < lastRim_ ? k : 0];
@@ -103,7 +103,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
     }
     const V3d d[3] = {sites[triangle.corner[0]].at - p, sites[triangle.corner[1]].at - p,
                       sites[triangle.corner[2]].at - p};
-    // The edge that separates p most. It is chosen without branches, because they would be unpredictable.
+    // The edge that separates p most clearly. It is chosen without branches, which would be mispredicted.
     const double side0 = sideOfArc(d[1], d[2], p), side1 = sideOfArc(d[2], d[0], p),
                  side2 = sideOfArc(d[0], d[1], p);
     const bool oneIsLess = side1 < side0;
@@ -111,7 +111,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
     const bool twoIsLeast = side2 < less;
     const double least = twoIsLeast ? side2 : less;
     const std::uint32_t across = triangle.next[twoIsLeast ? 2u : static_cast<std::uint32_t>(oneIsLess)] / 4;
-    // The walk would turn back: by rounding, p appears on both sides of the edge.
+    // The walk would turn back, because rounding puts p on both sides of the edge.
     if (!(least < 0) || across == from) {
       counts.filter += step;
       break;
@@ -123,7 +123,7 @@ void Delaunay::start(const std::array<Site, 4>& first) {
 }
 
 std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std::uint32_t& equal) {
-  // Each step gets strictly nearer, so the loop ends, even on rings where many sites are equally near.
+  // Each step comes strictly nearer, so the loop ends even on rings of sites at equal distances.
   double distance2 = (sites[site].at - p).length2();
   for (bool nearer = true; nearer;) {
     nearer = false;
@@ -150,7 +150,7 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
     if (holds(triangles[t], p)) found = t;
     return found != kNone;
   });
-  // Rounding may have ended the descent at a site that is not the nearest. Then all triangles are searched.
+  // Rounding may have ended the descent before the nearest site. In that case all triangles are searched.
   for (std::uint32_t t = 0;
        found == kNone && distance2 > kHiddenDistance * kHiddenDistance && t < triangles.size(); ++t) {
     if (triangles[t].corner[0] == kNone) continue;
@@ -167,10 +167,10 @@ void Delaunay::lengthenScratch(std::size_t length) {
   rim_.resize(length);
 }
 
-// Grows the hole edge by edge counterclockwise, so that its rim comes out in order. Inlined into insert(),
-// its only caller, as the next two are, so that p stays in registers.
+// Grows the hole edge by edge counterclockwise, so that its rim is in order. This function and the next two
+// are inlined into insert(), their only caller, so that p stays in registers.
 [[gnu::always_inline]] inline Delaunay::Hole Delaunay::growHole(const V3d& p, std::uint32_t first) {
-  // Local pointers let the compiler assume that writes to the arrays do not change them.
+  // Because the pointers are local, the compiler may assume that writes to the arrays do not change them.
   const std::uint32_t insertion = ++insertions;
   std::size_t holes = 1, rims = 0, pending = 3;
   makeRoom(holes, rims, pending);
@@ -268,7 +268,7 @@ void Delaunay::insert(const Site& added) {
   }
   standsFor.push_back(site);
   const Hole hole = growHole(p, first);
-  // If no site lies inside the hole, it has two triangles fewer than its rim has edges.
+  // If no site lies inside the hole, its number of triangles is the number of rim edges minus two.
   if (hole.edges != hole.triangles + 2)
     mergeHidden(site, {hole_.data(), hole.triangles}, {rim_.data(), hole.edges});
   takeTriangles(hole.triangles, hole.edges);

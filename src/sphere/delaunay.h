@@ -18,21 +18,22 @@
 // part of voronoi.h, which validates the input.
 namespace rsphere {
 
-// One cache line, so that a step of a walk or of a hole's growth loads only one.
+// Fills one cache line, so that each step of a walk or of a hole's growth loads only one line.
 struct alignas(64) Triangle {
   double nx = 0, ny = 0, nz = 0,
-         offset = 0;             // outward normal of length twice the area; normal . corner
-  float bound = 0;               // beyond() has the right sign if its absolute value exceeds this
+         offset = 0;             // normal: outward, with the length of twice the area; offset: normal .
+                                 // corner
+  float bound = 0;               // the sign of beyond() is right if its absolute value exceeds this bound
   std::uint32_t corner[3] = {};  // sites, counterclockwise as seen from outside
   std::uint32_t next[3] = {};    // neighbour across the edge opposite each corner: 4 * triangle + edge
-  std::uint32_t hole = 0;        // the insertion that removed it last
+  std::uint32_t hole = 0;        // number of the last insertion that removed it
 
   // The distance of p beyond the plane, times |normal|.
   double beyond(const V3d& p) const { return nx * p.x + ny * p.y + nz * p.z - offset; }
 };
 static_assert(sizeof(Triangle) == 64);
 
-// A direction. height: (|at|^2 - 1) / 2, how far rounding has left it outside the unit sphere.
+// A direction. height: (|at|^2 - 1) / 2, the rounding error of its distance from the origin.
 struct alignas(32) Site {
   V3d at;
   double height = 0;
@@ -42,14 +43,15 @@ struct Delaunay {
   static constexpr std::uint32_t kNone = ~0u;
 
   std::vector<Site> sites;                  // in the order of insertion
-  std::vector<std::uint32_t> standsFor;     // the site that each was merged into; itself if it is a corner
+  std::vector<std::uint32_t> standsFor;     // the site into which each was merged; itself if it was not
+                                            // merged
   std::vector<std::uint32_t> someTriangle;  // a triangle with the site as a corner
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> unused;  // free slots in triangles; their corner[0] is kNone
   std::uint32_t insertions = 0;
   PredicateCounts counts;
 
-  // Reserves memory for this total number of sites.
+  // Reserves memory for this number of sites in total.
   void reserve(std::size_t count);
 
   // Starts with four different sites.
@@ -83,9 +85,9 @@ struct Delaunay {
     } while (t != first);
   }
 
-  // Describes a defect of the triangulation, if there is one: neighbours that do not refer to each other, a
-  // circumcircle that contains a neighbour's corner, or a surface that is not closed. names[i]: the number by
-  // which the message refers to site i.
+  // Describes a defect of the triangulation, if any: neighbours that do not refer to each other, a
+  // circumcircle that contains a neighbour's corner, or a surface that is not closed. names[i]: the number of
+  // site i in the message.
   std::optional<std::string> fault(std::span<const std::uint32_t> names) const;
 
   static constexpr int kAfter[3] = {1, 2, 0}, kBefore[3] = {2, 0, 1};
@@ -97,12 +99,12 @@ struct Delaunay {
   };
 
   bool holdsSlowly(const Triangle& t, const V3d& p);
-  // Finds a triangle whose circumcircle contains p, or returns kNone and sets equal to the site that p is
-  // to be merged into.
+  // Finds a triangle whose circumcircle contains p. Returns kNone if there is none, and sets `equal` to the
+  // site with which p is merged.
   std::uint32_t locate(const V3d& p, std::uint32_t& equal);
   std::uint32_t locateFromNearest(const V3d& p, std::uint32_t from, std::uint32_t& equal);
-  // Lengthens the scratch of insert() if needed; returns whether it did. Each triangle of the hole adds at
-  // most two edges to the pending ones and the rim together.
+  // Enlarges the scratch memory of insert() if needed; returns whether it did. Each triangle of the hole adds
+  // at most two edges to the total of pending edges and rim edges.
   bool makeRoom(std::size_t holes, std::size_t rims, std::size_t pending) {
     const std::size_t most = std::max(holes, rims + pending) + 4;
     if (most <= hole_.size()) [[likely]]
@@ -111,9 +113,9 @@ struct Delaunay {
     return true;
   }
   void lengthenScratch(std::size_t length);
-  // The steps of insert(). growHole() leaves the triangles whose circumcircles contain p in hole_, and the
-  // edges around them in rim_, in order; it returns their numbers. takeTriangles() gives the hole as many
-  // triangles as its rim has edges. fillHole() joins the new site to each of these edges.
+  // The steps of insert(). growHole() stores the triangles whose circumcircles contain p in hole_, and the
+  // edges around them in order in rim_; it returns both numbers. takeTriangles() provides as many triangles
+  // as the rim has edges. fillHole() joins the new site to each of these edges.
   struct Hole {
     std::size_t triangles, edges;
   };
@@ -122,8 +124,8 @@ struct Delaunay {
   void fillHole(const V3d& p, std::uint32_t site, std::size_t rims);
   void mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole, std::span<const RimEdge> rim);
 
-  // Scratch of insert(), which keeps track of the lengths in use. After an insertion, the first lastRim_
-  // entries of hole_ are the triangles around the new site.
+  // Scratch memory of insert(); the lengths in use are tracked separately. After an insertion, the first
+  // lastRim_ entries of hole_ are the triangles around the new site.
   static constexpr std::size_t kStarts = 6, kLeastScratch = 64;
   std::size_t lastRim_ = 1;
   std::vector<std::uint32_t> hole_;

@@ -20,10 +20,9 @@ DirectionBins::DirectionBins(size_t count, const std::function<size_t(const V3d&
   }
 }
 
-void DirectionBins::placePoints(const V3d& direction, double solidAngle,
-                                std::array<V3d, kPoints>& points) {
+void DirectionBins::placePoints(const V3d& direction, double solidAngle, std::array<V3d, kPoints>& points) {
   using std::numbers::pi;
-  // At this distance from the middle, the mean square over all points is that over the disk, r2 / 2.
+  // At this distance from the middle, the mean square distance of all points is that of the disk, r2 / 2.
   const double distance = std::sqrt(solidAngle / pi * kPoints / (2. * (kPoints - 1)));
   const V3d aside = std::abs(direction.z) < .9 ? V3d(0, 0, 1) : V3d(1, 0, 0);
   const V3d x = direction.cross(aside).normalized(), y = direction.cross(x);

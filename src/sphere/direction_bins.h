@@ -14,24 +14,24 @@ class DirectionBins {
   // Equal zones. REQUIRES count >= 1.
   explicit DirectionBins(size_t count)
       : zones_(count), count_(count), solidAngles_(count, zones_.solidAngle()) {}
-  // The bins from 0 to count - 1 that a function of the direction (unit) numbers; directions with another
-  // number lie in none. They are made of a million equal zones, each in the bin of its middle: a border may
-  // be off by half the width of such a zone, .1 degrees.
+  // The bins 0 to count - 1, as numbered by a function of the direction (unit); directions with any other
+  // number are in no bin. Bins consist of a million equal zones, each assigned by its middle. A border may
+  // therefore be off by half the width of a zone, .1 degrees.
   DirectionBins(size_t count, const std::function<size_t(const V3d&)>& binOf);
 
   size_t count() const { return count_; }
-  // sr; 0 if no direction was found in it.
+  // sr; 0 if the bin contains no direction.
   double solidAngle(size_t bin) const { return solidAngles_[bin]; }
 
-  // The bin that a direction (unit) lies in; count(): none.
+  // The bin of a direction (unit); count(): none.
   size_t binAt(const V3d& direction) const {
     const size_t zone = zones_.zoneAt(direction);
     return binOf_.empty() ? zone : binOf_[zone];
   }
 
-  // Divides a cell around a direction (unit) among the bins that it lies in: calls f(bin, share) once for
-  // each. The shares sum to 1, but for what lies in no bin. solidAngle: of the cell, sr, which is taken for a
-  // disk; it is represented by points whose second moment is that of the disk. 0: it is a point.
+  // Divides a cell around a direction (unit) among bins: calls f(bin, share) once for each. The shares sum to
+  // 1, except for the part in no bin. solidAngle: of the cell, sr; 0: it is a point. The cell is assumed to
+  // be a disk, and represented by points with the second moment of the disk.
   template <class F>
   void divide(const V3d& direction, double solidAngle, const F& f) const;
 

@@ -6,7 +6,7 @@
 namespace rsphere {
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014): every 64-bit state, even a small one, gives well-mixed bits.
+// SplitMix64 (Steele, Lea, Flood 2014). Its output is well mixed for any 64-bit state, even a small one.
 std::uint64_t mixed(std::uint64_t& state) {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -20,7 +20,7 @@ double unitInterval(std::uint64_t& state) { return static_cast<double>(mixed(sta
 }  // namespace
 
 std::vector<V3d> baseDirections(std::size_t n) {
-  // Turns are integers in units of 2^-64, so that i golden angles wrap around without rounding.
+  // Turns are integers in units of 2^-64, so that multiples of the golden angle wrap around without rounding.
   constexpr std::uint64_t kGoldenTurn = 0x9e3779b97f4a7c15u;  // 2^64 (sqrt(5) - 1) / 2
   std::vector<V3d> directions;
   directions.reserve(n);

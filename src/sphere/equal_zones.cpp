@@ -15,7 +15,7 @@ EqualZones::EqualZones(size_t count) : first_{0} {
   const auto n = static_cast<double>(count);
   if (count > 1) first_.push_back(1);
   if (count > 2) {
-    // The share of the sphere within an angle of the pole is the square of the sine of half the angle.
+    // The fraction of the sphere within an angle of the pole is the squared sine of half the angle.
     const double cap = 2 * std::asin(std::sqrt(1 / n));
     const double side = std::sqrt(4 * pi / n);  // of a square with the solid angle of a zone
     const double rows = std::max(1., std::round((pi - 2 * cap) / side));
@@ -38,7 +38,7 @@ std::vector<size_t> EqualZones::rows() const {
 }
 
 size_t EqualZones::zoneAt(const V3d& d) const {
-  // As many zones as this lie above the direction. The share of the sphere is in proportion to the height.
+  // The number of zones above the direction. Area on the sphere is proportional to height.
   const double above = static_cast<double>(count()) * std::clamp((1 - d.z) / 2, 0., 1.);
   const auto row = std::upper_bound(first_.begin() + 1, first_.end() - 1, above,
                                     [](double x, size_t first) { return x < static_cast<double>(first); });

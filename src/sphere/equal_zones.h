@@ -11,23 +11,23 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// Row 0 is the cap around +z, the last row that around -z; in between, the zones of a row are as wide as
-// high, as far as whole numbers allow. Zones are numbered row by row. Those of a row begin at the azimuth of
-// +x and follow each other towards +y.
+// Row 0 is the cap around +z, the last row the cap around -z. In the other rows, zones are as wide as high,
+// as nearly as whole numbers allow. Zones are numbered row by row, within a row from the azimuth of +x
+// towards +y.
 class EqualZones {
  public:
   // REQUIRES count >= 1. A single zone is the whole sphere.
   explicit EqualZones(size_t count);
 
   size_t count() const { return first_.back(); }
-  // sr, of each zone, exactly.
+  // Of each zone, sr; exact.
   double solidAngle() const;
-  // The zones in each row, from +z to -z.
+  // The number of zones in each row, from +z to -z.
   std::vector<size_t> rows() const;
 
-  // The zone that a direction (unit) lies in.
+  // The zone that contains a direction (unit).
   size_t zoneAt(const V3d& direction) const;
-  // A direction (unit) in the middle of a zone; that of a cap is its pole.
+  // The direction (unit) of the middle of a zone; for a cap, the pole.
   V3d middle(size_t zone) const;
 
  private:

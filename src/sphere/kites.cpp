@@ -16,14 +16,14 @@ struct alignas(64) Block {
   double bx[kBlock], by[kBlock], bz[kBlock], bh[kBlock];
   double cx[kBlock], cy[kBlock], cz[kBlock], ch[kBlock];
   double uu[kBlock], vv[kBlock], ww[kBlock];                 // squared edges, opposite to b, a, c
-  double volumeA[kBlock], volumeB[kBlock], volumeC[kBlock];  // k, computed from the edges at that corner
+  double volumeA[kBlock], volumeB[kBlock], volumeC[kBlock];  // k, computed from the edges at this corner
   double volume[kBlock], area[kBlock];                       // k and N of kites.h
-  double tangent[3][kBlock];                                 // at the edge opposite to a corner
+  double tangent[3][kBlock];                                 // at the edge opposite to each corner
 };
 
-// Compiled for several vector widths. The answers do not depend on the width, because nothing is contracted.
-// Each loop is written so that GCC 12 vectorizes it: it selects only between values that are already
-// computed, and the square root is in a loop by itself.
+// Compiled for several vector widths. The results do not depend on the width, because no operations are
+// contracted. Each loop is written so that GCC 12 vectorizes it: it only selects between values already
+// computed, and the square root has a separate loop.
 RSPHERE_FOR_WIDTHS("avx512f", "avx2") void tangents(Block& k) {
   for (int i = 0; i < kBlock; ++i) {
     const double ux = k.ax[i] - k.cx[i], uy = k.ay[i] - k.cy[i], uz = k.az[i] - k.cz[i],
@@ -62,7 +62,7 @@ RSPHERE_FOR_WIDTHS("avx512f", "avx2") void tangents(Block& k) {
   }
 }
 
-// Relative error 2^-63 for |t| <= 1/32.
+// The relative error is 2^-63 for |t| <= 1/32.
 inline double arcTangentNearZero(double t) {
   const double s = t * t;
   return t - t * s * (1 / 3.0 - s * (1 / 5.0 - s * (1 / 7.0 - s * (1 / 9.0 - s * (1 / 11.0)))));
@@ -86,7 +86,7 @@ long double det(const LongVec& a, const LongVec& b, const LongVec& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
-// 1 - 1/|site|, by the first two terms of its power series in Site::height, which is within 2e-16 of 0.
+// 1 - 1/|site|, by the first two terms of its power series in Site::height; heights are within 2e-16 of 0.
 long double shrinkage(const Site& s) { return s.height * (1 - 1.5L * s.height); }
 LongVec unit(const Site& s) {
   const long double k = shrinkage(s);
@@ -100,10 +100,10 @@ LongVec difference(const Site& a, const Site& b) {
           (0.0L + a.at.z - b.at.z) - (k * a.at.z - l * b.at.z)};
 }
 
-// The plane triangle a, b, c of a hull in extended precision.
+// The plane triangle a, b, c of the hull, in extended precision.
 struct LongTriangle {
   long double uu, vv, ww;        // squared edges ca, cb, ab
-  long double dotA, dotB, dotC;  // of the two edges at a corner
+  long double dotA, dotB, dotC;  // dot product of the two edges at each corner
   long double volume, area;      // k and N of kites.h
   LongTriangle(const Site& a, const Site& b, const Site& c) {
     const LongVec u = difference(a, c), v = difference(b, c), w = difference(a, b);

@@ -8,8 +8,8 @@
 namespace rsphere {
 namespace {
 
-// A table that processes four bits of each coordinate at a time: [orientation of the curve][x][y] -> 8 bits
-// of the position, and above them the next orientation.
+// Table for processing four bits of each coordinate at a time. Index: [orientation of the curve][x][y].
+// Value: 8 bits of the position, and above them the next orientation.
 constexpr int kSteps = 3, kBits = 4 * kSteps;
 constexpr std::array<std::uint16_t, 4 * 256> kCurve = [] {
   std::array<std::uint16_t, 4 * 256> table{};
@@ -34,7 +34,7 @@ constexpr std::array<std::uint16_t, 4 * 256> kCurve = [] {
   return table;
 }();
 
-// A stable sort, least significant digit first. The lower half of a key is the index of the direction.
+// A stable radix sort, least significant digit first. The lower half of a key is the index of a direction.
 void radixSort(OrderScratch& scratch) {
   auto &keys = scratch.keys, &spare = scratch.spare;
   spare.resize(keys.size());
@@ -58,7 +58,7 @@ void radixSort(OrderScratch& scratch) {
 }  // namespace
 
 std::uint32_t placeOnCurve(const V3d& d) {
-  // The order of the faces is x y z -x -y -z: each touches the one before it.
+  // The order of the faces is x y z -x -y -z, so that each is adjacent to the preceding one.
   const double ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
   const bool xIsGreatest = ax >= ay && ax >= az, yIsGreater = ay >= az;
   const double m = xIsGreatest ? d.x : yIsGreater ? d.y : d.z;
@@ -95,7 +95,7 @@ void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vect
       if (sites[i].at[axis] < sites[extreme[3 + axis]].at[axis]) extreme[3 + axis] = i;
     }
   }
-  // Every 64th direction along the curve is a uniform sample. Values from 16 to 128 make no difference.
+  // Every 64th direction along the curve, as a uniform sample. Values from 16 to 128 work equally well.
   constexpr std::size_t kSample = 64;
   auto& reordered = scratch.order;
   reordered.clear();

@@ -7,8 +7,8 @@
 
 #include "sphere/delaunay.h"
 
-// The order in which directions are inserted into a triangulation. Neighbours follow each other, so that
-// walks are short and the caches are warm. The order does not change the answer.
+// The order in which directions are inserted into a triangulation. Neighbours are inserted successively, so
+// that walks are short and caches are warm. The order does not change the result.
 namespace rsphere {
 
 // The position of a direction along Hilbert curves on the faces of a cube, 27 bits: 2^12 steps per edge.
@@ -22,8 +22,8 @@ struct OrderScratch {
 };
 void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order);
 
-// The same, but two groups come first: a few extreme directions, whose hull contains the centre if possible,
-// and then a sample of the rest, which keeps holes small at the edge of the region inserted so far.
+// The same, preceded by two groups: a few extreme directions, whose hull contains the centre if possible, and
+// a sample of all others. The sample keeps holes small at the edge of the region inserted so far.
 void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order);
 
 }  // namespace rsphere

@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-// A sum of non-overlapping doubles, smallest first. Its sign is that of the last one.
+// A sum of non-overlapping doubles, smallest first. Its sign is the sign of the last one.
 template <int N>
 struct Expansion {
   std::array<double, N> part;
@@ -109,8 +109,8 @@ int exactSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
       .sign();
 }
 
-// The sign of the first nonzero derivative of exactSide, in the order in which coordinates are perturbed.
-// Returns 0 only if the points are not all different.
+// The sign of the first nonzero derivative of exactSide, in the order in which coordinates are perturbed. 0
+// only if two points are equal.
 int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
   std::array<int, 4> order;
@@ -135,14 +135,14 @@ int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   return 0;
 }
 
-// With u = a - p, and |u|^2/2 instead of u's part along p, which is equal for unit vectors,
+// A form for unit vectors, with u = a - p, and |u|^2/2 instead of u's component along p:
 //   |u|^2 p.(v x w) + |v|^2 p.(w x u) + |w|^2 p.(u x v)
-// is twice the exact form, whatever the radii are. Returns 0 if rounding might decide the sign. The error has
-// two terms, which the factors 32 and 2 below bound:
+// It is twice the exact form, for any radii. Returns 0 if rounding might decide the sign. The error has two
+// terms, which the factors 32 and 2 below bound:
 // - Rounding: 18 roundings of each product of two squared edges (differences 2, cross 2, dot 3, square 3,
 //   product and sums 3; |v||w| <= (|v|^2 + |w|^2)/2).
-// - Radii: kUnitTolerance^2 times the squared edges, because one form uses the weight (1 + |p|^2)/2 and the
-//   other uses chords.
+// - Radii: kUnitTolerance^2 times the squared edges, because the exact form uses the weight (1 + |p|^2)/2 and
+//   this form uses chords.
 template <class Real>
 int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   using Vec = Imath::Vec3<Real>;
@@ -158,7 +158,8 @@ int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   int sign = liftedSide<double>(a, b, c, p);
-  // The second precision is for rounded sites that lie on one circle. It takes 40 ns, the exact form 2 us.
+  // Extended precision decides most cases of rounded sites on a common circle. It takes 40 ns, the exact form
+  // 2 us.
   if (sign == 0) sign = liftedSide<long double>(a, b, c, p);
   if (sign != 0) {
     ++counts.lifted;

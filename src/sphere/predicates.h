@@ -5,15 +5,15 @@
 
 #include "sphere/two_parts.h"
 
-// On which side of a triangle's circumcircle a direction lies, decided correctly and consistently.
+// Decides correctly and consistently on which side of a triangle's circumcircle a direction lies.
 //
-// The object. A stored triple p represents the point q = 2p / (1 + |p|^2). (1 + |p|^2) / 2 is the first
-// Newton iterate for |p|, starting at 1, so q has the direction of p and the radius 1 - e^2/8, where e =
-// |p|^2 - 1. That is within 2e-32 of the unit sphere for vectors normalized in double precision, and within
-// 1.3e-29 for the worst that are accepted (|e| <= 1e-14). The predicate decides the convex hull of the
-// points q. It is polynomial in the stored doubles, so exact arithmetic can settle every case. Using the
-// rounded unit vectors as they are was rejected: their radii differ by 1e-16, which decides the hull if the
-// spacing is below 1e-8.
+// The geometric object. A stored triple p represents the point q = 2p / (1 + |p|^2). (1 + |p|^2) / 2 is the
+// first Newton iterate for |p|, starting at 1, so q has the direction of p and the radius 1 - e^2/8, where e
+// = |p|^2 - 1. The radius is within 2e-32 of 1 for vectors normalized in double precision, and within 1.3e-29
+// for all accepted vectors (|e| <= 1e-14). The predicate decides the convex hull of the points q. It is
+// polynomial in the stored doubles, so exact arithmetic can decide every case. Rejected alternative: the
+// rounded unit vectors themselves, because the differences of 1e-16 in their radii decide the hull at
+// spacings below 1e-8.
 //
 // Ties between coplanar points are broken by a symbolic perturbation. Of two points, the one with
 // lexicographically greater coordinates is perturbed by an infinitely larger amount. Points move first along
@@ -22,10 +22,10 @@ namespace rsphere {
 
 using Imath::V3d;
 
-// The greatest | |p|^2 - 1 | of an accepted direction. The error of the radius follows from it.
+// The largest | |p|^2 - 1 | of an accepted direction. It determines the error of the radius.
 inline constexpr double kUnitTolerance = 1e-14;
 
-// Components below this are set to zero, so that fifth powers of the others neither overflow nor underflow in
+// Smaller components are set to zero, so that fifth powers of the others neither overflow nor underflow in
 // exact arithmetic.
 inline constexpr double kSmallestComponent = 0x1p-150;
 
@@ -39,7 +39,7 @@ inline double lengthExcess(const V3d& p) {
   return (t - 1) + (((tLow + sLow) + zLow) + (yLow + xLow));
 }
 
-// How many predicates each stage decided.
+// Number of predicates decided by each stage.
 // - filter: the triangle's stored plane, in floating point with an error bound.
 // - lifted: coordinates relative to the query direction, insensitive to radii.
 // - exact: expansion arithmetic.
@@ -50,8 +50,8 @@ struct PredicateCounts {
 
 // Whether the circle through a, b, c (counterclockwise as seen from outside the hull) contains p. Requires
 // four different triples within kUnitTolerance of unit length, whose components are 0 or at least
-// kSmallestComponent. Always returns an answer, and the opposite one for the opposite orientation (b, a, c).
-// Adds to the count of the stage that decided. Source of the expansions: Shewchuk, "Adaptive precision
+// kSmallestComponent. Never fails, and the opposite orientation (b, a, c) has the opposite result. Increments
+// the counter of the stage that decided. Source of the expansions: Shewchuk, "Adaptive precision
 // floating-point arithmetic and fast robust geometric predicates", 1997.
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts);
 

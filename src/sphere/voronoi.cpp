@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kNone = Delaunay::kNone;
 constexpr double kSphere = 4 * std::numbers::pi;
-// The square of an ulp of 1 [sr]. Rounding of the input changes any smaller cell beyond recognition.
+// The square of an ulp of 1 [sr]. Smaller cells are dominated by rounding of the input.
 constexpr double kLeastArea = 0x1p-104;
 
 double withoutDust(double x) { return std::abs(x) < kSmallestComponent ? 0.0 : x; }
@@ -36,8 +36,8 @@ void appendChecked(std::span<const V3d> directions, std::vector<Site>& sites) {
   }
 }
 
-// Directions in the order of insertion. With fewer than four different directions there is no triangulation:
-// sites then keep the order of the input, and few lists the different ones.
+// Directions in the order of insertion. If fewer than four are different, there is no triangulation: sites
+// then keep the order of the input, and `few` lists the different ones.
 struct Triangulation {
   Delaunay delaunay;
   std::vector<std::uint32_t> order;  // site -> direction
@@ -66,8 +66,8 @@ void Triangulation::build(std::span<const Site> sites, OrderScratch& scratch) {
   delaunay.reserve(sites.size());
   delaunay.start({sites[few[0]], sites[few[1]], sites[few[2]], sites[few[3]]});
   few.clear();
-  // The order accesses sites all over memory. For a million directions, a third of the time was spent waiting
-  // for them without this prefetch.
+  // The insertion order accesses sites all over memory. Without this prefetch, a third of the time for a
+  // million directions was spent waiting for memory.
   constexpr std::size_t kAhead = 8;
   for (std::size_t k = 4; k < order.size(); ++k) {
     __builtin_prefetch(&sites[order[std::min(k + kAhead, order.size() - 1)]]);
@@ -108,7 +108,7 @@ struct VoronoiWorkspace::Data {
 
   void build(std::span<const Site> sites);
   void query(const BaseTriangulation::Data& base, std::span<const V3d> dynamicDirections);
-  void addKeptTriangles(const BaseTriangulation::Data& base);  // also lists the new triangles in which
+  void addKeptTriangles(const BaseTriangulation::Data& base);  // also lists the new triangles in `which`
   void markSpoiled(const Triangle& t) {
     for (std::uint32_t corner : t.corner) spoiled[corner] = 1;
   }
@@ -162,9 +162,9 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
 }
 
 void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
-  // Replaced triangles are found by their first corner: new triangles begin with a site that was added later,
-  // and triangles of the base have no such corner. The loop adds 0 for the kites of a replaced triangle
-  // instead of branching, because the branch would be mispredicted.
+  // Replaced triangles are recognized by their first corner: in new triangles it is a site that was added
+  // later, which no base triangle has. For replaced triangles, 0 is added instead of branching, because the
+  // branch would be mispredicted.
   const auto& triangles = triangulation.delaunay.triangles;
   const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
   which.resize(triangles.size());
@@ -191,8 +191,8 @@ void VoronoiWorkspace::Data::finishAreas() {
   for (std::uint32_t site = 0; site < area.size(); ++site) {
     anyMerged = anyMerged || delaunay.standsFor[site] != site;
     if (spoiled[site]) area[site] = carefulSolidAngle(delaunay, site);
-    // A cluster within an ulp: the radii of the hull's points (predicates.h) differ from 1 by as much as
-    // the cells measure.
+    // In a cluster within an ulp, the cells are as small as the deviations of the radii of the hull's points
+    // from 1 (predicates.h).
     if (area[site] < 0 && area[site] > -kLeastArea) area[site] = 0;
   }
   if (anyMerged) {
@@ -214,7 +214,8 @@ void VoronoiWorkspace::Data::setFlatAreas() {
   std::array<double, 3> cell = {kSphere, kSphere / 2, kSphere / 2};
   if (few.size() == 2) cell[0] = kSphere / 2;
   if (few.size() == 3) {
-    // Both sides of the plane triangle are faces of the hull: a cell is 2 pi minus its two angles (kites.h).
+    // Both sides of the plane triangle are faces of the hull, so that a cell is 2 pi minus its two angles
+    // (kites.h).
     for (int i = 0; i < 3; ++i) {
       const long double angle = hullAngle(sites[few[(i + 1) % 3]], sites[few[(i + 2) % 3]], sites[few[i]]);
       cell[i] = static_cast<double>(2 * (std::numbers::pi_v<long double> - angle));
@@ -239,7 +240,7 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
     const Delaunay& delaunay = data->triangulation.delaunay;
     std::vector<std::uint32_t> all(delaunay.triangles.size());
     std::iota(all.begin(), all.end(), 0);
-    // Free slots have no corners, so the kites of another triangle take their place.
+    // Free slots have no corners, so they are replaced by some other triangle.
     const auto used = std::find_if(all.begin(), all.end(),
                                    [&](std::uint32_t t) { return delaunay.triangles[t].corner[0] != kNone; });
     for (std::uint32_t t : delaunay.unused) all[t] = *used;

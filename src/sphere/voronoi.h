@@ -10,23 +10,23 @@
 
 #include "sphere/predicates.h"
 
-// Spherical Voronoi cells: the solid angle of the directions that are nearest to each given direction.
+// Spherical Voronoi cells: the solid angle of all directions that are closest to a given direction.
 //
-// Properties of every function here that takes directions:
-// 1. Directions are unit vectors; |p|^2 may differ from 1 by kUnitTolerance (1e-14). A direction that differs
-//    by more, is NaN or infinite causes std::invalid_argument, which names its index in the list. Components
-//    below 2^-150 are set to 0.
+// Properties of all functions here that take directions:
+// 1. Directions are unit vectors, with |p|^2 within kUnitTolerance (1e-14) of 1. For any other, NaN or
+//    infinite direction, std::invalid_argument names its index in the list. Components below 2^-150 are set
+//    to 0.
 // 2. Only the direction of the stored triple matters; rounding of its length does not.
-// 3. A cell's relative error is at most 1e-13, or the effect of a change of the input by half an ulp,
-//    whichever is greater. The sum is 4 pi within 1e-13 for up to 4096 directions, and within 1e-12 for
-//    up to a million.
-// 4. Reordering or rotating the directions changes nothing beyond that.
-// 5. Special cases need no care by the caller:
+// 3. A cell's relative error is at most 1e-13, or the effect of changing the input by half an ulp, whichever
+//    is larger. The sum is 4 pi within 1e-13 for up to 4096 directions, and within 1e-12 for up to a million.
+// 4. Reordering or rotating the directions changes nothing beyond this error.
+// 5. Callers need not treat special cases:
 //    - No direction: no area. One direction: 4 pi. Two: 2 pi each, wherever they are.
 //    - Three or more on one great or small circle: lunes.
 //    - All in one hemisphere, in a cap of any size, antipodes, cocircular directions, regular solids.
-//    - Equal directions are merged and share the area equally. Directions nearer than about 2e-16 may be
-//      merged too (5e-15 if their lengths use up the tolerance), and some cells in such a cluster may be 0.
+//    - Equal directions are merged and share the area equally. Directions closer than about 2e-16 may be
+//      merged too (5e-15 if the tolerance of lengths is exhausted), and some cells in such a cluster may be
+//      0.
 // 6. At most 2^29 directions; about 300 bytes each.
 // Threads: a BaseTriangulation may be shared once built; a VoronoiWorkspace belongs to one thread at a time.
 namespace rsphere {
@@ -35,7 +35,7 @@ using Imath::V3d;
 
 class VoronoiWorkspace;
 
-// Directions with their triangulation and areas, which every query copies. Building: 0.2 us per direction.
+// Directions with their triangulation and areas, copied by every query. Building takes 0.2 us per direction.
 class BaseTriangulation {
  public:
   explicit BaseTriangulation(std::span<const V3d> directions);
@@ -49,7 +49,7 @@ class BaseTriangulation {
   std::unique_ptr<const Data> data_;
 };
 
-// One thread's memory for queries, with the triangulation of the last one. A query allocates memory only if
+// One thread's memory for queries, with the triangulation of the last query. A query allocates memory only if
 // it needs more than all earlier ones.
 class VoronoiWorkspace {
  public:
@@ -58,7 +58,7 @@ class VoronoiWorkspace {
   VoronoiWorkspace(VoronoiWorkspace&&) noexcept;
   VoronoiWorkspace& operator=(VoronoiWorkspace&&) noexcept;
 
-  // Which stages decided the predicates of the last query.
+  // Number of predicates that each stage decided in the last query.
   const PredicateCounts& counts() const;
 
  private:
@@ -72,8 +72,8 @@ class VoronoiWorkspace {
   std::unique_ptr<Data> data_;
 };
 
-// Solid angles [sr] of the cells of the base directions and then of the dynamic ones, in one triangulation
-// of both. Returns a view into the workspace, valid until its next use. Only cells next to dynamic
+// Solid angles [sr] of the cells of base directions and dynamic directions in a common triangulation, base
+// directions first. Returns a view into the workspace, valid until its next use. Only cells next to dynamic
 // directions are recomputed.
 std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span<const V3d> dynamicDirections,
                                         VoronoiWorkspace& workspace);
@@ -82,25 +82,25 @@ std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span
 std::span<const double> cellSolidAngles(std::span<const V3d> directions, VoronoiWorkspace& workspace);
 std::vector<double> cellSolidAngles(std::span<const V3d> directions);
 
-// The cells themselves. Direction i's cell is the range [first[i], first[i+1]) of neighbour and vertex,
-// counterclockwise as seen from outside: neighbour[k] shares a side with i, and vertex[k] is the end of that
-// side, at the start of the side shared with neighbour[k+1]. If four or more directions lie on a circle, some
-// vertices are equal within rounding and some sides have no length. A merged direction has the cell of the
-// direction mergedInto[i]; for the others mergedInto[i] == i. With two directions, each has one neighbour and
-// a meaningless vertex (0, 0, 0); with one, it has neither. Error of a vertex: 1e-15 divided by the sine of
-// the smallest angle of its triangle.
+// The cells themselves. The cell of direction i is the range [first[i], first[i+1]) of neighbour and vertex,
+// counterclockwise as seen from outside. neighbour[k] shares a side with i; vertex[k] is the end of that
+// side, and the start of the side shared with neighbour[k+1]. If four or more directions lie on a circle,
+// some vertices are equal within rounding and some sides have no length. A merged direction has the cell of
+// the direction mergedInto[i]; for all others mergedInto[i] == i. With two directions, each has one neighbour
+// and a meaningless vertex (0, 0, 0); a single direction has neither. Error of a vertex: 1e-15 divided by the
+// sine of the smallest angle of its triangle.
 struct VoronoiCells {
   std::vector<std::uint32_t> first, neighbour, mergedInto;
   std::vector<V3d> vertex;
 };
 
-// The cells of the workspace's last query.
+// The cells of the last query of the workspace.
 VoronoiCells voronoiCells(const VoronoiWorkspace& workspace);
 
-// Verifies the last query: no triangle's circumcircle contains a corner of its neighbours (on a closed
-// surface this implies that it contains no direction at all), the surface is closed, and areas are not
-// negative and sum to 4 pi within 1e-12. Returns a description of the defect, or nothing. Takes about as long
-// as building the triangulation.
+// Verifies the last query. No triangle's circumcircle may contain a corner of its neighbours, which on a
+// closed surface implies that it contains no direction at all. The surface must be closed. Areas must not be
+// negative, and sum to 4 pi within 1e-12. Returns a description of the defect, or nothing. Takes about as
+// long as building the triangulation.
 std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace);
 
 }  // namespace rsphere

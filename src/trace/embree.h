@@ -1,5 +1,5 @@
 #pragma once
-// The only file that depends on whether Embree 3 or Embree 4 is used.
+// The only file that distinguishes between Embree 3 and Embree 4.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -36,7 +36,7 @@ inline void occluded(RTCScene scene, QueryContext& context, RTCRay& ray) {
 }
 #endif
 
-// Calls visit(primitive) for each primitive whose bounds come within the radius of the center, until a call
+// Calls visit(primitive) for each primitive whose bounds are within the radius of the center, until a call
 // returns true. Returns whether one did. REQUIRES that the scene has only one geometry.
 template <typename Visit>
 bool anyWithin(RTCScene scene, float x, float y, float z, float radius, const Visit& visit) {
@@ -54,7 +54,7 @@ bool anyWithin(RTCScene scene, float x, float y, float z, float radius, const Vi
         if (!asked.found && asked.visit(arguments->primID)) {
           asked.found = true;
           arguments->query->radius = 0;
-          return true;  // the radius has changed: no more primitives are wanted
+          return true;  // the radius has changed, which ends the search
         }
         return false;
       },

@@ -13,13 +13,13 @@
 namespace rsphere {
 namespace {
 
-// The properties of a surface that shadow rays and ties depend on, looked up once for each finish.
+// The properties of a surface that matter for shadow rays and ties, stored once for each finish.
 struct Occluder {
-  PrimitiveId modifier;  // the later definition wins ties
-  bool sensor = false;   // wins ties, and stops no shadow ray
+  PrimitiveId modifier;  // the later definition takes precedence in ties
+  bool sensor = false;   // takes precedence in ties, and blocks no shadow ray
   bool hasMaterial = false;
   bool transparent = false;
-  bool opaqueFront = false, opaqueBack = false;  // certainly stops every shadow ray that hits this side
+  bool opaqueFront = false, opaqueBack = false;  // whether this side stops every shadow ray
 
   bool stops(double cosine) const { return cosine > 0 ? opaqueFront : opaqueBack; }
 };
@@ -39,7 +39,7 @@ Occluder makeOccluder(const Scene& scene, const Finish& finish, bool backFacesVi
   o.hasMaterial = true;
   const Material* material = scene.materialAt(finish.material);
   o.transparent = material && isTransparent(*material);
-  // Whether an alternate, antimatter or a mixture stops a ray is only known at the hit.
+  // Alternates, antimatter and mixtures decide at the hit whether a ray passes.
   if (material && finish.clip == 0 && !meetsMixture(scene, finish)) {
     const Sides stops = stopsShadows(*material);
     o.opaqueFront = stops.front;
@@ -48,7 +48,7 @@ Occluder makeOccluder(const Scene& scene, const Finish& finish, bool backFacesVi
   return o;
 }
 
-// The surface that a hit is attributed to.
+// The surface to which a hit is attributed.
 struct Owner {
   const Occluder* occluder = nullptr;  // null: none
   SurfaceId surface;
@@ -67,10 +67,10 @@ bool wins(const Owner& ownerA, double cosineA, const Owner& ownerB, double cosin
   return ownerA.surface < ownerB.surface;
 }
 
-// Increases a length by more than rounding to single precision (2^-24) and earlier rounding can reduce it.
+// Increases a length by more than the rounding errors of single precision (2^-24) and of its computation.
 float roundUp(double x) { return static_cast<float>(x * (1 + 1e-6)); }
 
-// Whether an instance or a mesh has a modifier, which then applies to all of its contents.
+// Whether an instance or mesh has a modifier, which then applies to all of its contents.
 bool standsForContents(const Owner& o) { return o.occluder->modifier != rad::kVoid; }
 
 // The nearest hit so far, in the coordinates of the tree that is queried.
@@ -78,32 +78,32 @@ struct Found {
   Owner owner;
   ShapeHit hit;
   PlacementPath path;        // placements from the world to the surface that was hit
-  uint8_t modifierPath = 0;  // how many of these apply to its modifiers
+  uint8_t modifierPath = 0;  // number of these that apply to the surface's modifiers
   const rad::Mesh* mesh = nullptr;
   uint32_t triangle;  // of the mesh
   TriangleHit triangleHit;
 };
 
-// The ray for the callbacks, in the coordinates of the tree that is queried. Embree passes the
-// context on to them.
+// The query that belongs to a ray of Embree, in the coordinates of the queried tree. Embree passes the
+// context to the callbacks.
 struct Query {
-  embree::QueryContext context;  // first, because callbacks cast its address to the query's
+  embree::QueryContext context;  // must be first: callbacks cast its address to that of the Query
   V3d origin, direction;
   double start = 0;               // distance along the true ray at which Embree's ray starts
   double farthest = 0;            // limit of the query
-  double samePlace = kSamePlace;  // the world's, in the units of this tree
+  double samePlace = kSamePlace;  // kSamePlace of the world, in units of this tree
   uint8_t depth = 0;              // of the tree: the number of placements that lead to it
   Found best;                     // shadow(): the source itself, if it is a surface
   SurfaceId source;
-  Owner standIn;          // the instance or mesh that hits on the tree's contents may be attributed to
-  bool passable = false;  // shadow(): something was hit that may let light pass
-  // The tree's primitives that the ray starts on and cannot hit again, and that it is aimed at.
+  Owner standIn;          // the instance or mesh to which hits on the tree's contents may be attributed
+  bool passable = false;  // shadow(): whether something was hit that may transmit light
+  // Primitives of the tree: `from` is where the ray starts, which it cannot hit again; `target` is its aim.
   uint32_t from = Tracer::kNoBlocker, target = Tracer::kNoBlocker;
-  uint32_t blocker = 0;  // shadow(): the tree's primitive that stopped the ray
+  uint32_t blocker = 0;  // shadow(): the primitive of the tree that stopped the ray
   double stop = 0;       // its distance
 
   double reach() const { return best.owner ? best.hit.distance + samePlace : farthest; }
-  // Whether a hit within reach() yields to the best one.
+  // Whether the best hit takes precedence over another hit within reach().
   bool loses(const Owner& owner, const ShapeHit& hit) const {
     return best.owner && hit.distance >= best.hit.distance - samePlace &&
            !wins(owner, hit.cosine, best.owner, best.hit.cosine);
@@ -116,7 +116,7 @@ double distanceTo(const Box3d& box, const V3d& point) {
   return out.length();
 }
 
-// Whether the shape is a polygon or ring in the plane of the neighborhood's surface.
+// Whether the shape is a polygon or ring in the plane of the neighborhood.
 bool liesInPlane(ShapeRef shape, const Tracer::Neighborhood& around) {
   constexpr double kParallel = 1e-9;  // planes are parallel if |cosine| of their normals is within this of 1
   const V3d* const normal = planeNormal(shape);
@@ -133,15 +133,15 @@ float roundDown(double x) {
 // Surfaces that are traced together, and Embree's tree over them.
 class Tracer::Tree {
  public:
-  // The trees of instances and meshes: of all surfaces of each group, of those surfaces of each group that
-  // refract, and of each mesh.
+  // Trees of the contents of instances and meshes: of all surfaces of each group, of the refracting surfaces
+  // of each group, and of each mesh.
   struct Others {
     std::span<const std::unique_ptr<Tree>> groups, refracting, meshes;
   };
 
-  // The tree of a group of surfaces. occluders: by number of finish. only: if not null, the tree has only
-  // these (by index in Scene::surfaces), and its instances refer to the trees of refracting surfaces.
-  // Instances with a modifier still refer to whole trees, because all of their contents have that modifier.
+  // The tree of a group of surfaces. occluders: by index of finish. only: if not null, the tree has only
+  // these surfaces, and its instances refer to trees of refracting surfaces. Instances with a modifier still
+  // refer to whole trees, because the modifier applies to all of their contents.
   Tree(RTCDevice device, const Scene& scene, const SurfaceGroup& group, std::span<const Occluder> occluders,
        const Others& others, const ById<SurfaceId, bool>* only = nullptr)
       : scene_(scene), others_(others), isWhole_(!only), occluders_(occluders) {
@@ -162,7 +162,7 @@ class Tracer::Tree {
     build(device, count_, onIntersect<&Tree::meetSurface>, onOccluded<&Tree::crossSurface>);
   }
 
-  // The triangles of a mesh.
+  // The tree of a mesh's triangles.
   Tree(RTCDevice device, const Scene& scene, const Mesh& mesh, std::span<const Occluder> occluders)
       : scene_(scene), occluders_(occluders), mesh_(&mesh) {
     primitives_ = mesh.data.triangles.size();
@@ -184,10 +184,10 @@ class Tracer::Tree {
   }
   size_t primitives() const { return primitives_; }
 
-  // Embree's number of a surface in the world's whole tree; kNoBlocker for kNone.
+  // Embree's primitive number of a surface in the whole tree of the world; kNoBlocker for kNone.
   static uint32_t primitiveOf(SurfaceId surface) { return static_cast<uint32_t>(surface.number()); }
 
-  // The primitive that a ray cannot hit again if it starts on this surface; kNoBlocker if there is none.
+  // The primitive that a ray starting on this surface cannot hit again; kNoBlocker if there is none.
   uint32_t beginOf(SurfaceId surface) const {
     const uint32_t primitive = primitiveOf(surface);
     if (primitive >= count_) return kNoBlocker;
@@ -195,12 +195,12 @@ class Tracer::Tree {
     return face.hasArea || planeNormal(scene_.surfaces.shapeOf(face)) ? primitive : kNoBlocker;
   }
 
-  // A surface as the owner of hits on itself.
+  // The owner of hits on a surface, if that is the surface itself.
   Owner ownerOf(SurfaceId surface) const {
     return {&occluders_[scene_.surfaces.face(surface).finish], surface};
   }
 
-  // Updates query.best if something is nearer; see Tracer::nearest().
+  // Updates query.best with the nearest hit in this tree; see Tracer::nearest().
   void nearest(Query& query) const {
     RTCRayHit rayHit;
     if (!aim(query, rayHit.ray)) return;
@@ -215,7 +215,7 @@ class Tracer::Tree {
     return primitive < count_ && crossSurface(query, primitive);
   }
 
-  // Whether the ray is certainly stopped. If not, query.passable says whether it must be followed.
+  // Whether the ray is certainly stopped. If not, query.passable is set if it may have to be followed.
   bool blocks(Query& query) const {
     RTCRay ray;
     if (!aim(query, ray)) return false;
@@ -224,7 +224,7 @@ class Tracer::Tree {
     return ray.tfar < 0;
   }
 
-  // Like Tracer::anySmallNear(), in the coordinates of the tree.
+  // Tracer::anySmallNear() in the coordinates of the tree.
   bool anySmallNear(const Neighborhood& around) const {
     if (!tree_ || distanceTo(bounds_, around.point) > around.radius) return false;
     const V3d m = around.point - center_;
@@ -235,7 +235,7 @@ class Tracer::Tree {
   }
 
  private:
-  // The surface that is Embree's primitive of this number.
+  // The surface with this primitive number of Embree.
   SurfaceId surfaceOf(size_t primitive) const {
     return isWhole_ ? SurfaceId(first_.index() + primitive) : chosen_[primitive];
   }
@@ -285,9 +285,9 @@ class Tracer::Tree {
     if (bounds_.isEmpty()) return;
     center_ = bounds_.center();
     radius_ = bounds_.size().length() / 2;
-    // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding moves its
-    // origin by at most 2^-23 radius per coordinate; rounding of its direction moves it, over that length,
-    // by 2^-22 radius.
+    // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding of its origin
+    // moves it by at most 2^-23 radius per coordinate, and rounding of its direction by 2^-22 radius over
+    // that length.
     padding_ = radius_ * 0x1p-21;
     tree_ = rtcNewScene(device);
     rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
@@ -317,8 +317,8 @@ class Tracer::Tree {
     out.upper_x = -roundDown(-high.x), out.upper_y = -roundDown(-high.y), out.upper_z = -roundDown(-high.z);
   }
 
-  // Embree's ray for a query. It starts where the true ray comes near the tree, so that single precision
-  // suffices. False if the true ray never does.
+  // Sets Embree's ray for a query. It starts where the true ray comes near the tree, so that single precision
+  // suffices. False if the true ray does not come near.
   bool aim(Query& query, RTCRay& ray) const {
     if (!tree_) return false;
     const V3d m = query.origin - center_;
@@ -347,7 +347,7 @@ class Tracer::Tree {
     return true;
   }
 
-  // Embree's callbacks. `meet` returns whether the primitive is now the nearest hit, `cross` whether it
+  // Embree's callbacks. `meet` returns whether the primitive is the nearest hit so far, `cross` whether it
   // certainly stops the ray.
   template <bool (Tree::*meet)(Query&, uint32_t) const>
   static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
@@ -376,7 +376,7 @@ class Tracer::Tree {
     return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
   }
 
-  // Most scenes consist of polygons, so these take the short path.
+  // Most scenes consist of polygons, so they are tested on a short path.
   bool meetSurface(Query& query, uint32_t primitive) const {
     const Face& face = faces_[primitive];
     if (!face.hasArea) return meetOther(query, surfaceOf(primitive));
@@ -416,8 +416,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // A hit on a mesh without a modifier is attributed to the triangle's material, or to the mesh if the
-  // triangle has none.
+  // A hit on a mesh without a modifier is attributed to the triangle's material or, if it has none, to the
+  // mesh.
   Owner triangleOwner(uint32_t triangle, const Owner& mesh) const {
     const int32_t material = mesh_->data.triangles[triangle].material;
     return standsForContents(mesh) || material == rad::Mesh::kNoMaterial
@@ -425,7 +425,7 @@ class Tracer::Tree {
                : ownerOf(mesh_->facesOf[static_cast<size_t>(material)]);
   }
 
-  // The same ray in the coordinates of the contents of an instance or a mesh.
+  // The query transformed to the coordinates of the contents of an instance or mesh.
   Query inner(const Query& query, const Owner& owner, const Contents& contents) const {
     const Placement& placement = scene_.placements[contents.placement];
     Query in;
@@ -456,8 +456,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // Whether a hit stops the ray. This depends on the side that is hit, and near the source on the tie with
-  // it: query.best is the source itself.
+  // Whether a hit stops the ray. This depends on the side that was hit. Near the source it also depends on
+  // the tie with the source, which is query.best.
   bool crosses(Query& query, const Owner& owner, const ShapeHit& hit) const {
     if (query.loses(owner, hit)) return false;
     if (owner.occluder->stops(hit.cosine)) {
@@ -510,29 +510,29 @@ class Tracer::Tree {
   const Scene& scene_;
   Others others_;
   bool isWhole_ = true;
-  std::span<const Occluder> occluders_;  // by number of finish
+  std::span<const Occluder> occluders_;  // by index of finish
   const Mesh* mesh_ = nullptr;
   SurfaceId first_;                // of a group
   std::vector<SurfaceId> chosen_;  // unless isWhole_: its surfaces, by Embree's primitive number
   std::vector<Face> chosenFaces_;
   const Face* faces_ = nullptr;  // of a group, by Embree's primitive number
   size_t count_ = 0;             // of Embree's primitives; 0 for a mesh
-  size_t primitives_ = 0;        // those that have bounds
+  size_t primitives_ = 0;        // number of primitives with bounds
   Box3d bounds_;
   V3d center_{0, 0, 0};
-  double radius_ = 0;   // of a sphere around everything
+  double radius_ = 0;   // of a sphere around all primitives
   double padding_ = 0;  // see build()
   RTCScene tree_ = nullptr;
 };
 
 struct Tracer::Embree {
   RTCDevice device = nullptr;
-  std::vector<Occluder> occluders;                    // by number of finish
-  std::vector<std::unique_ptr<Tree>> meshes, groups;  // as the scene has them
+  std::vector<Occluder> occluders;                    // by index of finish
+  std::vector<std::unique_ptr<Tree>> meshes, groups;  // in the order of the scene
   // By group: the tree of its refracting surfaces; null if there are none.
   std::vector<std::unique_ptr<Tree>> refracting;
 
-  // Whether a shadow ray that is stopped hits a surface that may refract it before anything stops it.
+  // Whether a stopped shadow ray hits a surface that may refract it before it is stopped.
   bool refractsBefore(Query& query) const {
     Query bent;
     bent.origin = query.origin;
@@ -558,15 +558,15 @@ struct Tracer::Embree {
 
 namespace {
 
-// Embree's settings for trees over this many primitives in all.
+// Embree's settings, by the total number of primitives.
 const char* deviceFor(size_t primitives) {
-  // Embree's cache for subdivision surfaces, 128 MB of address space, is not needed. Threads and huge pages
-  // only help in large scenes: starting threads takes longer than building the tree of a small one, and
-  // Embree reads /proc/meminfo to find out about huge pages.
+  // Embree's cache for subdivision surfaces (128 MB of address space) is not needed. In small scenes, threads
+  // and huge pages are disabled: starting threads takes longer than building the tree, and Embree reads
+  // /proc/meminfo to find out about huge pages.
   if (primitives < 20000) return "tessellation_cache_size=0,threads=1,user_threads=1,hugepages=0";
-  // Leaves of up to four primitives take 27 bytes a primitive less than those of one. In scenes beyond the
-  // processor's caches they take no more time: more primitives are tested, but less of the tree is read. In
-  // scenes of a few thousand polygons they take 4 to 10% more.
+  // Compared with leaves of one primitive, leaves of up to four save 27 bytes a primitive. In scenes larger
+  // than the processor's caches they take no more time: more primitives are tested, but less of the tree is
+  // read. In scenes of a few thousand polygons they take 4 to 10% more time.
   if (primitives < 200000) return "tessellation_cache_size=0";
   return "tessellation_cache_size=0,object_accel_max_leaf_size=4";
 }
@@ -681,7 +681,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
   query.from = tree.beginOf(from);
   if (source != kNone) {
     query.target = Tree::primitiveOf(source);
-    // The source emits from its front, so ties with surfaces that lie on it are resolved for that side.
+    // The source emits from its front, so ties with surfaces on it are resolved for that side.
     query.best.owner = tree.ownerOf(source);
     query.best.hit = {distance, V3d(0, 0, 0), 1};
     query.farthest += kSamePlace;
@@ -693,8 +693,8 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     blocked = tree.blocks(query);
   const bool refracted = blocked && embree_->refracting[0] && embree_->refractsBefore(query);
   blocked = blocked && !refracted;
-  // If a ray is unoccluded, the next one usually is too, so trying the old blocker would cost
-  // more than it saves.
+  // If a ray is unoccluded, the next one usually is too. Testing the old blocker would then take more time
+  // than it saves.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
   if (blocked) return Shadow::blocked;
   if (refracted) return Shadow::refracted;

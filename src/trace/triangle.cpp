@@ -9,9 +9,9 @@ namespace {
 
 double size(const V3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-// The signed volume spanned by a ray and an edge. Its sign is the side of the edge on which the ray
-// passes. It is 0 within rounding, a few ulp of the factors, because the two triangles at an edge have its
-// ends in either order.
+// The signed volume spanned by a ray and an edge. Its sign is the side on which the ray passes the edge.
+// Values within rounding, a few ulp of the factors, become 0, because two triangles may have the ends of
+// their common edge in different order.
 double side(const V3d& direction, const V3d& from, const V3d& edge) {
   const double volume = direction.dot(from.cross(edge));
   return std::abs(volume) <= 2e-15 * size(from) * size(edge) ? 0 : volume;
@@ -26,7 +26,7 @@ std::optional<Value> interpolated(const std::optional<Value>& a, const std::opti
 
 }  // namespace
 
-// The ray hits if it passes on the same side of all three edges (Segura and Feito, WSCG 2001).
+// The ray hits if it passes all three edges on the same side (Segura and Feito, WSCG 2001).
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
                double farthest, TriangleHit& out) {
   const auto& corners = mesh.triangles[triangle].vertices;

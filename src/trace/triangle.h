@@ -9,18 +9,18 @@ namespace rsphere {
 
 struct TriangleHit {
   ShapeHit hit;
-  double weight1, weight2;  // barycentric, of the triangle's vertices 1 and 2
+  double weight1, weight2;  // barycentric, for vertices 1 and 2 of the triangle
 };
 
 // Like intersect() in shape.h. A ray within rounding of an edge (1e-15 of the distance) hits the triangle, so
-// that no light leaks between triangles that share an edge.
+// that no light leaks between adjacent triangles.
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
                double farthest, TriangleHit& hit);
 
 Box3d bounds(const rad::Mesh& mesh, uint32_t triangle);
 
-// The vertices' values interpolated at a hit: the unit normal, or (0, 0, 0) if a vertex has none; the local
-// coordinates (u, v), or (0, 0) if a vertex has none.
+// Interpolated values of the vertices at a hit: the unit normal, and the local coordinates (u, v). Each is 0
+// if a vertex has no such value.
 V3d smoothNormal(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 Imath::V2d localCoordinates(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 
