@@ -13,15 +13,15 @@ namespace rsphere {
 // The estimator of glare (-Su), with a workspace for each thread of -n.
 class GlareWorkers {
  public:
-  // checkStop is called now and then during an estimate; it may throw to abandon the eye. Keeps a reference
-  // to the transport.
+  // checkStop is called repeatedly during an estimate; it may throw to abandon the eye. Keeps a reference to
+  // the transport.
   GlareWorkers(const Transport& transport, const AnswerOptions& options,
                const std::function<void()>& checkStop = {});
   GlareWorkers(const GlareWorkers&) = delete;
   GlareWorkers& operator=(const GlareWorkers&) = delete;
 
-  // record: eye and gaze. Throws rad::Error with the number of the record if the gaze has no length or is
-  // vertical. REQUIRES: worker is below threadCount(options.threads), and no other call for it is under way.
+  // record: eye and gaze. Throws rad::Error with the number of the record if the gaze is 0 or vertical.
+  // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.
   GlareAnswer answer(const Record& record, unsigned worker);
 
  private:
@@ -29,9 +29,9 @@ class GlareWorkers {
   std::vector<SphereEstimator::Workspace> workspaces_;
 };
 
-// The function that answers eyes: appends the indices of glare, or a record of every glare source (-Sd).
-// Warns if nothing in the scene gives light. checkStop: see GlareWorkers; it is copied. The other arguments
-// must live as long as the result.
+// The function that answers eyes: appends the indices of glare, or a record of each glare source (-Sd). Warns
+// if nothing in the scene emits light. checkStop: see GlareWorkers; it is copied. All other arguments must
+// exist as long as the result.
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                          const rad::Warn& warn, const std::function<void()>& checkStop);
 

@@ -11,7 +11,7 @@
 
 namespace rsphere {
 
-// Everything that the answers to the records of a run depend on, and how they are written.
+// All options that determine the answers to the records of a run, and how they are written.
 struct AnswerOptions {
   bool sphereMode = true;  // -S; else ray mode
   RayOptions ray;
@@ -20,9 +20,10 @@ struct AnswerOptions {
   std::vector<std::string> scene;         // an octree, .rad files or '!command'
   bool commands = true;                   // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;         // -Sg
-  std::vector<Sensor> sensors;            // -SG  goals as well
-  bool separate = false;                  // -Sp  the part of each goal, or of each light source's modifier
-  std::vector<std::string> contributors;  // their names; set once the scene is read. Empty: no parts
+  std::vector<Sensor> sensors;            // goals in addition to -Sg
+  bool separate = false;                  // whether the part due to each goal, or to each light source's
+                                          // modifier, is reported
+  std::vector<std::string> contributors;  // their names, set after the scene is read; empty: no parts
   // input
   NumberFormat in = NumberFormat::ascii;         // -f
   IrradianceAt irradiance = IrradianceAt::none;  // -i -I
@@ -30,24 +31,25 @@ struct AnswerOptions {
   bool numberedRays = false;  // -u+ was given: random numbers also depend on the number of a ray
   // output
   NumberFormat out = NumberFormat::ascii;  // -f
-  std::string outputs;                     // -o letters; the mode's default where not given
-  std::string treeOutputs;   // -o letters behind t or T, for each ray of a tree; empty: no trees
-  bool treeShadows = false;  // -o..T: shadow rays as well
-  std::vector<std::string> treeExcluded, treeIncluded;  // -te -tE, -ti -tI; one or both are empty
+  std::string outputs;                     // -o letters; if none are given, the default of the mode
+  std::string treeOutputs;                 // -o letters after t or T, for each ray of a tree; empty: no trees
+  bool treeShadows = false;                // -o..T: trees include shadow rays
+  std::vector<std::string> treeExcluded, treeIncluded;  // -te -tE, -ti -tI; at least one is empty
   ColorOptions color;
   int64_t width = 0, height = 0;   // -x -y
   bool header = true;              // -h
-  std::string program;             // argv[0] without its folder; it and the words are for the header
+  std::string program;             // argv[0] without its folder; for the header, like `words`
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
-  std::string picture;             // -Si  the name of the pictures; empty: none
-  RayOptions pictureRay;           // how their rays are traced
-  bool listSpecial = false;        // -Sl  a list of the special objects instead of answers
+  std::string picture;             // -Si  name of the pictures; empty: none
+  RayOptions pictureRay;           // options of the pictures' rays
+  bool listSpecial = false;        // -Sl  lists the special objects instead of answering records
   // work
   int threads = 1;             // -n; 0: one for each core
   double progressSeconds = 0;  // -t; 0: no progress reports
   bool progressGiven = false;  // -t was given
 
-  // Numbers of an input record: x y z of a point, or origin and direction of a ray, or an eye and its gaze.
+  // Number of values in an input record: x y z of a point, origin and direction of a ray, or an eye and its
+  // gaze.
   int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }
 };
 

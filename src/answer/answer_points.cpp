@@ -13,13 +13,13 @@
 namespace rsphere {
 namespace {
 
-// Makes the random numbers of a picture differ from those of the answer to the same point.
+// Makes the random numbers of a picture independent of those of the answer at the same point.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
-// The relative error of a mean that is not above 0.
+// The relative error of a mean that is 0 or negative.
 constexpr double kAnyError = 1e30;
 
-// Draws the pictures of points, with options of their own.
+// Draws the pictures of points, with separate options.
 class PictureMaker {
  public:
   PictureMaker(const Transport& answers, const AnswerOptions& options, const PictureProgress::Report& report)

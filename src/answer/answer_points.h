@@ -16,21 +16,21 @@ namespace rsphere {
 // The estimator of sphere mode, with a workspace for each thread of -n.
 class PointWorkers {
  public:
-  // standardError: whether PointAnswer's standard errors are wanted. checkStop is called now and then during
-  // an estimate; it may throw to abandon the point. Keeps a reference to the transport. Throws what
-  // SphereEstimator throws.
+  // standardError: whether PointAnswer should contain standard errors. checkStop is called repeatedly during
+  // an estimate; it may throw to abandon the point. Keeps a reference to the transport. Throws the errors of
+  // SphereEstimator.
   PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
                const std::function<void()>& checkStop = {});
   PointWorkers(const PointWorkers&) = delete;
   PointWorkers& operator=(const PointWorkers&) = delete;
 
-  // REQUIRES: worker is below threadCount(options.threads), and no other call for it is under way.
+  // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.
   PointAnswer answer(const V3d& point, unsigned worker) {
     return estimator_.estimate(point, workspaces_[worker]);
   }
 
   const SphereEstimator& estimator() const { return estimator_; }
-  // After answer(): the directions of the point and their rays.
+  // After answer(): the directions of the point, and their rays.
   SphereEstimator::Workspace& workspace(unsigned worker) { return workspaces_[worker]; }
 
  private:
@@ -38,24 +38,24 @@ class PointWorkers {
   std::vector<SphereEstimator::Workspace> workspaces_;
 };
 
-// Collects from the answers of a run what the warnings at its end say. May be called from several threads at
-// once; the warnings do not depend on the order of the answers.
+// Collects data for the warnings at the end of a run from its answers. Thread-safe; the warnings do not
+// depend on the order of the answers.
 class PointSummary {
  public:
   // sampling: RayOptions::sampling.
   void add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling);
 
-  // Where no direction finds light, or almost none, unless the whole scene is dark, of which answerPoints()
-  // warns:
+  // Points where almost no direction finds light, or none. If the whole scene is dark, answerPoints() warns
+  // instead:
   //   "no light reaches 3 of 20 points, or almost none; the first is record 7: check the units of the ..."
-  // Where the accuracy of -Sa was not reached although there is light:
+  // Points with light where the accuracy of -Sa was not reached:
   //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
-  // Where -Sf took light:
+  // Points where -Sf removed light:
   //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
   std::vector<std::string> warnings(const SphereOptions& options, const PreparedScene& prepared) const;
 
  private:
-  // Points that something is to be said of. The first record is kept of equal ones.
+  // Points to warn about, with the worst of them; of equal ones the first record.
   struct Some {
     uint64_t points = 0, worst = 0;
     double most = -1;
@@ -63,21 +63,21 @@ class PointSummary {
   };
   mutable std::mutex mutex_;
   uint64_t points_ = 0;
-  Some unlit_;    // dark ones
+  Some unlit_;    // dark points
   Some missed_;   // -Sa: relative standard errors of the mean brightness
-  Some clamped_;  // -Sf: shares of the light that they had without the clamp
-  // The sum of these shares, as a whole number, which no order of summation changes.
+  Some clamped_;  // -Sf: fractions of the unclamped light that were removed
+  // The sum of these fractions as a whole number, so that it does not depend on the order of summation.
   uint64_t billionths_ = 0;
 };
 
-// Throws rad::Error if the records that have arrived need more pictures (-Si) than its name has room for:
-// before the first of them is drawn. Waits for the first record if there are pictures.
+// Throws rad::Error if the records that have arrived need more pictures (-Si) than the name can number,
+// before any of these pictures is drawn. Waits for the first record if there are pictures.
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
 
-// The function that answers points in sphere mode: appends the spherical mean, or a record of every
-// direction (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene gives light.
-// checkStop: see PointWorkers; it is copied. pictureReport: gets the progress of pictures. The other
-// arguments must live as long as the result. Throws what PointWorkers throws.
+// The function that answers points in sphere mode: appends the spherical mean, or a record of each direction
+// (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene emits light. checkStop: see
+// PointWorkers; it is copied. pictureReport: receives the progress of pictures. All other arguments must
+// exist as long as the result. Throws the errors of PointWorkers.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
                           const std::function<void()>& checkStop,

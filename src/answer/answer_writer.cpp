@@ -8,8 +8,8 @@
 namespace rsphere {
 namespace {
 
-// Distance, in scene units, at which rtrace starts the ray of a sensor (-I): clear of
-// the surface that it lies on.
+// Distance (scene units) from a sensor (-I) at which rtrace starts its ray, so that it clears the surface of
+// the sensor.
 constexpr double kSensorHeight = 1.1e-4;
 
 }  // namespace
@@ -65,7 +65,7 @@ int componentCount(const AnswerOptions& options) {
   return count;
 }
 
-// Calls write() for the color, or for each contributor's part of it.
+// Calls write() for the color or, if there are contributors, for the part due to each.
 template <class Write>
 void AnswerWriter::eachPart(const Color& color, const Write& write) const {
   if (options_.contributors.empty()) return write(color);
@@ -122,7 +122,7 @@ void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& a
 }
 
 void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t record) const {
-  if (options_.outputs.empty()) return;  // -ot alone: only the trees are written
+  if (options_.outputs.empty()) return;  // with -ot alone, only trees are written
   RecordText text(bytes, options_.out);
   for (const char letter : options_.outputs) {
     if (letter == 'i')
@@ -141,8 +141,8 @@ void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const
   eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
 }
 
-// The error of brightness is an upper bound: as if the errors of the channels were fully correlated, which
-// they nearly are, because the same paths bring all channels.
+// The error of the brightness is an upper bound that assumes full correlation of the errors of the channels.
+// They are nearly correlated, because the same paths contribute to all channels.
 void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
   colors_.writeError(text, Radiance(part), brightness(part));
 }
@@ -171,7 +171,7 @@ void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int 
   text.end();
 }
 
-// All faces of a contributor follow each other.
+// Writes all faces of the first contributor, then those of the next.
 void AnswerWriter::writeFaces(RecordText& text, const PointAnswer& answer) const {
   if (options_.contributors.empty())
     for (const Irradiance& face : answer.facing) colors_.write(text, face);
@@ -179,7 +179,7 @@ void AnswerWriter::writeFaces(RecordText& text, const PointAnswer& answer) const
     for (const Irradiance& face : answer.facing) colors_.write(text, Irradiance(face.color.part(i)));
 }
 
-// All zones of a contributor follow each other.
+// Writes all zones of the first contributor, then those of the next.
 void AnswerWriter::writeZones(RecordText& text, const PointAnswer& answer) const {
   if (options_.contributors.empty())
     for (const Radiance& zone : answer.zones) colors_.write(text, zone);
@@ -314,10 +314,10 @@ void AnswerWriter::write(std::string& bytes, const GlareSource& source, const Gl
 namespace {
 
 // Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result has
-// the same bits as that of an rtrace compiled with fused multiply-add: vectors whose length is 1 to six
-// digits, which is the precision of text, are corrected to first order (error below 4e-13); others are
-// multiplied by a reciprocal. The bits matter: they decide to which side of a plane a hit is rounded, and so,
-// for example, which square of a checkered floor a function file sees.
+// the same bits as in an rtrace compiled with fused multiply-add. If the length is 1 to six digits (the
+// precision of text), the vector is corrected to first order (error below 4e-13); otherwise it is multiplied
+// by a reciprocal. The bits matter where rounding decides on which side of a plane a hit lies, and so, for
+// example, which square of a checkered floor a function file sees.
 double makeUnit(const V3d& vector, V3d& unit) {
   const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
   if (square == 0) return 0;

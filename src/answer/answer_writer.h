@@ -11,40 +11,39 @@
 
 namespace rsphere {
 
-// The number of numbers and names in a record of the chosen -o letters, for NCOMP= of the header.
-// '~' adds none, as in rtrace.
+// The number of values and names in a record with the given -o letters, for NCOMP= of the header. As in
+// rtrace, '~' adds none.
 int componentCount(const AnswerOptions& options);
 
-// Appends records to a string of bytes: the quantities that the -o letters name, in their order, in the
-// output format. With contributors (-Sp), the letters v e E C H u z Z, in ray mode v V r x, each have the
-// part of every contributor in turn. REQUIRES: the options are from parseOptions() and live as long as the
-// writer.
+// Appends records to a string of bytes: the quantities of the -o letters, in this order, in the output
+// format. With contributors (-Sp), the letters v e E C H u z Z (in ray mode v V r x) write the part due to
+// each contributor in turn. REQUIRES: the options come from parseOptions() and exist as long as the writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
 
-  // A ray of ray mode, or a direction of sphere mode (-Sd). `record` is the number of the input
-  // record from 0, for letter i.
+  // Writes a ray of ray mode, or a direction of sphere mode (-Sd). `record`: number of the input record from
+  // 0, for letter i.
   void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
 
-  // A ray of a tree (-ot), after a TAB for each of its ancestors. Writes nothing if
-  // -te or -ti excludes the ray.
+  // Writes a ray of a tree (-ot), after a TAB for each of its ancestors; nothing if -te or -ti excludes the
+  // ray.
   void writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const;
 
-  // A point of sphere mode.
+  // Writes a point of sphere mode.
   void write(std::string& bytes, const PointAnswer& answer) const;
 
-  // An eye (-Su).
+  // Writes an eye (-Su).
   void write(std::string& bytes, const GlareAnswer& answer) const;
 
-  // A glare source of an eye (-Su -Sd). `record` is the number of the eye's record from 0, for letter i.
+  // Writes a glare source of an eye (-Su -Sd). `record`: number of the eye's record from 0, for letter i.
   void write(std::string& bytes, const GlareSource& source, const GlareAnswer& eye, const Scene& scene,
              uint64_t record) const;
 
  private:
   template <class Write>
   void eachPart(const Color& color, const Write& write) const;
-  // Writes the quantity of a ray that an -o letter names.
+  // Writes the quantity of an -o letter for a ray.
   void writeLetter(RecordText& text, char letter, const RayAnswer& answer) const;
   void writeError(RecordText& text, const PointAnswer& answer) const;
   void writeErrorOfPart(RecordText& text, const Color& part) const;
@@ -57,23 +56,24 @@ class AnswerWriter {
   OutputColors colors_;
 };
 
-// The ray that rtrace traces for the six numbers of an input record. The direction is normalized. Under -I,
-// the origin is moved by 1.1e-4 scene units along it, and the direction is reversed; -oo and -od show them
-// so. `length` is that of the given direction, which -ld makes the limit of the ray; 0 for a bogus record.
+// The ray that rtrace traces for the six numbers of an input record, with a normalized direction. With -I,
+// the origin is moved along the direction by 1.1e-4 scene units, and the direction is then reversed; -oo and
+// -od print the result. `length`: of the given direction, which is the ray's limit with -ld; 0 for a bogus
+// record.
 struct InputRay {
   V3d origin{0, 0, 0}, direction{0, 0, 0};
   double length = 0;
 };
 InputRay inputRay(const double* numbers, IrradianceAt irradiance);
 
-// Whether a record of ray mode (six numbers) has no direction. As in rtrace, it has none if the squared
-// length is zero in floating point.
+// Whether a record of ray mode (six numbers) has no direction: as in rtrace, if its squared length is zero in
+// floating point.
 inline bool hasNoDirection(std::span<const double> ray) {
   return ray[3] * ray[3] + ray[4] * ray[4] + ray[5] * ray[5] == 0;
 }
 
-// The answer of rtrace to a record whose direction is zero: the ray before it (zeros if there is
-// none), as if it hit nothing.
+// rtrace's answer to a record whose direction is zero: that of the preceding ray (zeros if there is none), as
+// if it hit nothing.
 RayAnswer bogusAnswer(const InputRay& before);
 
 }  // namespace rsphere

@@ -26,40 +26,40 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A thread claims as many records at once as it answers in about this time. A claim costs about a
-// microsecond, which is negligible beside it; and the threads still end at nearly the same time.
+// Time in which a thread answers the records that it claims at once. It is long compared with a claim, which
+// takes about a microsecond, and so short that all threads end at nearly the same time.
 constexpr auto kClaimTime = std::chrono::microseconds(200);
 constexpr size_t kLargestClaim = 256;
-// For each thread, the number of claims that may be ahead of the oldest unfinished one.
+// Number of claims per thread that may be ahead of the oldest unfinished one.
 constexpr uint64_t kClaimsAhead = 16;
 
-// One repetition of a ray may be an accident; two suggest that someone averages its answers.
+// A single repetition of a ray may be accidental; two suggest that the caller averages answers.
 constexpr int kRepeatsToRemark = 2;
 
-// Finished answers are written at least this often, where -x does not ask for groups.
+// Finished answers are written at least this often, unless -x requests groups.
 constexpr auto kLongestDelay = std::chrono::milliseconds(500);
-// At the end of a run, the time that records in work have to end before the process ends without them. Most
-// records take less, and a picture that is being written takes a few milliseconds.
+// Time for unfinished records at the end of a run, before the process ends without them. Most records take
+// less, and writing a finished picture takes a few milliseconds.
 constexpr auto kGrace = std::chrono::milliseconds(100);
 
 constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
 
-// Consecutive records, for one thread.
+// Consecutive records that one thread answers.
 struct Claim {
   uint64_t number = 0;
   uint64_t firstRecord = 0;
   size_t records = 0;
   std::vector<double> numbers;
-  std::vector<double> before;  // the last record before them that has a direction
+  std::vector<double> before;  // last preceding record with a direction
   bool flush = false;
-  std::exception_ptr error;  // the fault in reading the record after them
+  std::exception_ptr error;  // error while reading the following record
 };
 
-// The answers to the records of a claim. Its thread appends them, and another thread may take away those that
-// are there while it computes the next. Appending takes no lock unless there is no more room.
+// The answers to the records of a claim. Its thread appends answers, and meanwhile another thread may take
+// those already appended. Appending takes no lock unless the memory must grow.
 class alignas(64) InWork {
  public:
-  // Begins a claim. Called by the thread that answers it.
+  // Begins a claim. Called by the thread that answers the claim.
   void begin(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     claim_ = claim;
@@ -70,7 +70,7 @@ class alignas(64) InWork {
     std::copy(bytes.begin(), bytes.end(), bytes_.get() + size);
     size_.store(size + bytes.size(), std::memory_order_release);
   }
-  // Ends the claim and returns what is not taken yet.
+  // Ends the claim and returns the answers that have not been taken.
   std::string finish() {
     const std::lock_guard lock(mutex_);
     std::string rest = untaken();
@@ -78,7 +78,7 @@ class alignas(64) InWork {
     size_ = taken_ = 0;
     return rest;
   }
-  // Takes away the answers that are there, if they belong to this claim. Any thread may call it.
+  // Takes the answers appended so far, if they belong to this claim. Any thread may call it.
   std::string take(uint64_t claim) {
     const std::lock_guard lock(mutex_);
     return claim_ == claim ? untaken() : std::string();
@@ -113,7 +113,7 @@ struct Finished {
   std::exception_ptr error;
 };
 
-// A file descriptor that threads wait for with poll(2). It counts until it is read.
+// A file descriptor for which threads wait with poll(2). It counts how often it was raised.
 class Event {
  public:
   Event() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -138,10 +138,10 @@ class Event {
   int fd_;
 };
 
-// Each thread takes records from the reader (under input_), answers them, and hands in the bytes
-// (under output_). The thread that hands in the oldest claim writes all claims that are due. The thread that
-// called run() watches: it writes the finished records of the oldest claim every kLongestDelay and on a
-// signal. Lock order: input_, output_, that of InWork.
+// Each thread takes records from the reader (holding input_), answers them, and submits the bytes (holding
+// output_). The thread that submits the oldest claim writes all claims that are complete in order. The thread
+// that called run() watches: it writes the finished records of the oldest claim every kLongestDelay and on a
+// signal. Lock order: input_, output_, the lock of InWork.
 class Batch {
  public:
   Batch(RecordReader& reader, RecordSink& writer, const AnswerOptions& options, const Messages& messages,
@@ -218,9 +218,9 @@ class Batch {
   Clock::time_point start_ = Clock::now(), lastReport_ = start_;
 
   std::atomic<bool> stopped_{false}, waiting_{false};
-  std::atomic<uint64_t> recordsTaken_{0};  // this and inputShare_ are for progress reports only
+  std::atomic<uint64_t> recordsTaken_{0};  // like inputShare_, only for progress reports
   std::atomic<double> inputShare_{0};
-  Event wake_;         // the run ends: nobody waits for input any more
+  Event wake_;         // the run ends: no thread waits for input any longer
   Event workerEnded_;  // raised once by each worker
 };
 
@@ -237,14 +237,14 @@ void Batch::run() {
   if (const std::exception_ptr fault = conclude()) std::rethrow_exception(fault);
 }
 
-// Writes what is left to be written and returns why the run has ended, or null at the end of the input.
+// Writes the remaining answers. Returns the reason why the run ended, or null at the end of the input.
 std::exception_ptr Batch::conclude() {
   const std::unique_lock output = outputForWatcher();
-  outputEnded_ = true;  // workers that are left write nothing
+  outputEnded_ = true;  // remaining workers write nothing
   try {
     writer_.flush();
   } catch (const rad::Error&) {
-    if (!error_) error_ = std::current_exception();  // the first fault is reported
+    if (!error_) error_ = std::current_exception();  // only the first error is reported
   }
   if (end_.ended) end_.ended();
   if (error_) return error_;
@@ -284,8 +284,8 @@ void Batch::runWorkers() {
   }
 }
 
-// Runs on the calling thread while the workers answer. It ends with the last of them. If the run ends for
-// another reason while a record is in work that takes long, it ends the process (RunEnd::leave).
+// Runs on the calling thread until all workers have ended. If the run ends for another reason while a long
+// record is unfinished, it ends the process (RunEnd::leave).
 void Batch::watch(uint64_t workers) {
   std::array<pollfd, 3> events{{{workerEnded_.descriptor(), POLLIN, 0},
                                 {wake_.descriptor(), POLLIN, 0},
@@ -312,8 +312,8 @@ void Batch::watch(uint64_t workers) {
   if (ended < workers && end_.leave) end_.leave(conclude());
 }
 
-// What workers finish until the grace ends is written as well, and their faults are reported: a file that
-// grows too large causes both SIGXFSZ and an error of write(2), which has its name.
+// Answers that workers finish within kGrace are also written, and their errors are reported: if a file grows
+// too large, both SIGXFSZ and an error of write(2) occur, and the latter names the file.
 void Batch::endForSignal() {
   writeFinished();
   const std::unique_lock output = outputForWatcher();
@@ -336,8 +336,8 @@ void Batch::work(unsigned worker) {
   }
 }
 
-// Takes the next records: those that have arrived, at most `most`. Waits for the first of them. Returns
-// false when there are no more.
+// Takes the next records: those that have arrived, at most `most`. Waits for the first one. Returns false if
+// there are no more.
 bool Batch::take(Claim& claim, size_t most) {
   const std::lock_guard input(input_);
   if (inputEnded_ || stopping()) return false;
@@ -396,7 +396,7 @@ void Batch::noteBogus(Claim& claim) {
   }
 }
 
-// Callers that repeat a ray to average its answers expect new samples each time, which rtrace draws.
+// Callers that repeat a ray to average its answers expect a new sample each time, as from rtrace.
 void Batch::remarkRepeats(const double* record, uint64_t index) {
   const RayOptions& ray = options_.ray;
   if (repeatsRemarked_ || options_.numberedRays || (ray.ambientBounces == 0 && ray.directJitter == 0)) return;
@@ -425,7 +425,7 @@ void Batch::remarkLayout() {
                     first->line, first->numbers, first->numbers == 1 ? "" : "s"));
 }
 
-// Leaves the answers in inWork_[worker].
+// The answers remain in inWork_[worker].
 Finished Batch::compute(const Claim& claim, unsigned worker) {
   InWork& mine = inWork_[worker];
   mine.begin(claim.number);
@@ -470,7 +470,7 @@ void Batch::handIn(uint64_t number, Finished&& finished, InWork& mine) {
   written_.notify_all();
 }
 
-// Writes the answers of each finished Claim in order, up to the first unfinished one. REQUIRES output_.
+// Writes the answers of all finished claims in order, up to the first unfinished one. REQUIRES output_.
 void Batch::writeDue() {
   while (!finished_.empty() && finished_.begin()->first == nextOut_ && !outputEnded_) {
     const Finished due = std::move(finished_.begin()->second);
@@ -486,16 +486,16 @@ void Batch::writeDue() {
   }
 }
 
-// Locks output_ for the watching thread. It looks again and again instead of waiting for the mutex, which a
-// worker holds as long as nobody reads what it writes: the thread sanitizer delivers no signal to a thread
-// that waits for a mutex, and most signals come to this thread.
+// Locks output_ for the watching thread. A worker holds this mutex as long as its output is not read. Polling
+// replaces waiting for the mutex, because the thread sanitizer delivers no signal to a thread that waits for
+// a mutex, and most signals are sent to this thread.
 std::unique_lock<std::mutex> Batch::outputForWatcher() {
   std::unique_lock output(output_, std::try_to_lock);
   while (!output && !output.try_lock()) poll(nullptr, 0, 5);
   return output;
 }
 
-// Writes and flushes all records that are finished, up to the first that is not.
+// Writes and flushes all finished records, up to the first unfinished one.
 void Batch::writeFinished() {
   const std::unique_lock output = outputForWatcher();
   guardOutput([this] {
@@ -504,7 +504,8 @@ void Batch::writeFinished() {
   });
 }
 
-// Calls `write`, unless the output has ended. If it fails, or was the last, the run ends. REQUIRES output_.
+// Calls `write`, unless the output has ended. If it fails or was the last output, the run ends. REQUIRES
+// output_.
 template <typename Write>
 void Batch::guardOutput(const Write& write) {
   try {
@@ -516,7 +517,7 @@ void Batch::guardOutput(const Write& write) {
   if (outputEnded_) endInput();
 }
 
-// Wakes the thread that waits for input and the threads that wait for answers to be written.
+// Wakes the thread that waits for input, and the threads that wait for answers to be written.
 void Batch::endInput() {
   stopped_ = true;
   wake_.raise();
@@ -547,8 +548,8 @@ void Batch::reportProgress() {
   messages_.report(text);
 }
 
-// An estimate of the number of all records; 0 if nothing is known. For a file, it assumes that the rest of
-// the file has as many records per byte as the part that was read.
+// An estimate of the total number of records; 0 if it is unknown. For a file, it assumes that the unread part
+// has as many records per byte as the part already read.
 double Batch::expectedRecords() const {
   if (options_.height > 0)
     return static_cast<double>(options_.height) * static_cast<double>(std::max<int64_t>(options_.width, 1));

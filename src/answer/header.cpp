@@ -13,7 +13,7 @@
 namespace rsphere {
 namespace {
 
-// A word as rtrace prints it in headers: in quotes if it is empty or contains blanks or a quote.
+// A word as in rtrace's headers: in quotes if it is empty, or contains blanks or a quote.
 std::string quoted(const std::string& word) {
   char quote = 0;
   for (size_t i = 1; i + 1 < word.size(); ++i) {
@@ -37,7 +37,7 @@ std::string dateText(const std::tm& date) {
                      date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
 }
 
-// sr of each bin, eight in a line.
+// Solid angle of each bin (sr), eight on a line.
 std::string solidAngleLines(const DirectionBins& bins) {
   std::string lines;
   for (size_t i = 0; i < bins.count(); ++i) {
@@ -104,7 +104,7 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
     if (options.out == NumberFormat::float64) alignment = sizeof(double);
     if (alignment > 1) text += fmt::format("BigEndian={}\n", std::endian::native == std::endian::big ? 1 : 0);
     text += fmt::format("FORMAT={}", formatName(options.out, options.color));
-    constexpr size_t kLineEnds = 2;  // of this line and of the empty one
+    constexpr size_t kLineEnds = 2;  // of this line and of the following empty line
     if (const auto start = writer.position(); start && alignment > 1)
       while ((static_cast<size_t>(*start) + text.size() + kLineEnds) % alignment != 0) text += ' ';
     text += "\n\n";

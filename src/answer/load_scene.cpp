@@ -27,7 +27,7 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
     separateContributors(scene, goals);
   }
 #ifdef __GLIBC__
-  // The lists of a large scene have grown by moving, which leaves holes of megabytes.
+  // Growing lists of a large scene were moved, which leaves unused gaps of megabytes; this returns them.
   malloc_trim(0);
 #endif
   return scene;

@@ -4,9 +4,9 @@
 
 namespace rsphere {
 
-// Reads the scene that the options name and converts it for tracing. Commands in the scene are run, unless it
-// is untrusted (-Sc-): then none is run, and the scene may name only files below the folders that the command
-// line and RAYPATH name. Throws rad::Error as rad::readScene() and buildScene() do.
+// Reads the scene given in the options and converts it for tracing. Commands in the scene are run, unless the
+// scene is untrusted (-Sc-): then no command is run, and the scene may only name files below the folders
+// named on the command line or in RAYPATH. Throws rad::Error like rad::readScene() and buildScene().
 Scene loadScene(const AnswerOptions& options, const rad::Warn& warn);
 
 }  // namespace rsphere

@@ -16,7 +16,7 @@ void limitMemory() {
   if (data.rlim_cur != RLIM_INFINITY || space.rlim_cur != RLIM_INFINITY) return;
   struct sysinfo machine {};
   if (sysinfo(&machine) != 0) return;
-  // The memory in use now is added: it is small, except that a sanitizer reserves terabytes.
+  // The memory already in use is added. It is small, except with a sanitizer, which reserves terabytes.
   uint64_t used[6] = {};
   std::ifstream pages("/proc/self/statm");
   for (uint64_t& n : used) pages >> n;

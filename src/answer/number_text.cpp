@@ -10,7 +10,7 @@
 namespace rsphere {
 namespace {
 
-constexpr int kDigits = 7;  // of "%e", before and after the point
+constexpr int kDigits = 7;  // digits printed by "%e", before and after the point
 
 // Powers of ten up to 22 are exact in a double: 5^22 < 2^53.
 constexpr int kLargestExactPower = 22;
@@ -39,7 +39,7 @@ void appendLibrary(std::string& text, double x) {
 void appendScientific(std::string& text, double x) {
   const double size = std::fabs(x);
   const int binaryExponent = static_cast<int>(std::bit_cast<uint64_t>(size) >> 52) - 1023;
-  // floor(log10 of size), or one less: 1233/4096 is just below log10(2).
+  // floor(log10(size)), or one less: 1233/4096 is slightly below log10(2).
   int exponent = (binaryExponent * 1233) >> 12;
   const int power = kDigits - 1 - exponent;
   // The exponents of zero, denormals, infinity and nan are far outside this range.
@@ -55,8 +55,8 @@ void appendScientific(std::string& text, double x) {
     ++exponent;
     scaled = power >= 1 ? size * kPowers[power - 1] : size / kPowers[1 - power];
   }
-  // `scaled` is below 1e7 and was rounded once, so its error is below 2^-53 * 1e7 = 1.2e-9. If it is closer
-  // than 1e-8 to the middle between two integers, the library decides with exact arithmetic.
+  // `scaled` is below 1e7 and was rounded once, so its error is below 2^-53 * 1e7 = 1.2e-9. If it is within
+  // 1e-8 of the middle between two integers, exact arithmetic of the library decides.
   auto digits = static_cast<uint32_t>(scaled);
   const double rest = scaled - digits;
   if (std::fabs(rest - 0.5) < 1e-8) return appendLibrary(text, x);

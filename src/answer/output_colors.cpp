@@ -14,20 +14,20 @@
 namespace rsphere {
 namespace {
 
-constexpr double kScotopicEfficacy = 412;   // lm/W, as kPhotopicEfficacy, for V'(lambda)
+constexpr double kScotopicEfficacy = 412;   // lm/W, like kPhotopicEfficacy, but for V'(lambda)
 constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 
-// Fractions of V'(lambda) and of the melanopic curve in the parts of the spectrum that red, green and blue
-// represent, as rtrace -pS and -pM of RADIANCE 6.1a give them for pure red, green and blue.
+// Fractions of V'(lambda) and of the melanopic curve in the parts of the spectrum represented by red, green
+// and blue. They are the values that rtrace -pS and -pM of RADIANCE 6.1a print for pure red, green and blue.
 const Color kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
 const Color kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
 
 constexpr double kLeastRange = 50;  // nm, between the limits of -cw
 
-// The matrix that adapts X, Y, Z from equal-energy white to this white.
+// The matrix that adapts X, Y, Z from equal-energy white to the given white.
 Matrix adaptation(double xWhite, double yWhite) {
-  // The "sharp" transform and its inverse, with the digits that RADIANCE gives them. Their product deviates
-  // from the unit matrix by 9e-5, so that the colors of rtrace deviate too.
+  // The "sharp" transform and its inverse, with RADIANCE's digits. Their product differs from the unit matrix
+  // by 9e-5; rtrace's colors have the same error.
   constexpr Matrix sharp = {{{1.2694, -.0988, -.1706}, {-.8364, 1.8006, .0357}, {.0297, -.0315, 1.0018}}};
   constexpr Matrix sharpInverse = {{{.8156, .0472, .1372}, {.3791, .5769, .0440}, {-.0123, .0167, .9955}}};
   constexpr double kSameWhite = 1e-4;

@@ -5,8 +5,9 @@
 namespace rsphere {
 namespace {
 
-// The part of a picture that does not foretell the time of the rest, because its rays make the coarse
-// solution; and the part after it that must be done before the time left is reported.
+// kStart: initial part of a picture, whose time does not predict that of the rest, because its rays compute
+// the coarse solution. kEnough: the part after it that must be finished before the remaining time is
+// reported.
 constexpr double kStart = .1, kEnough = .05;
 
 }  // namespace

@@ -6,14 +6,14 @@
 
 namespace rsphere {
 
-// Says now and then how far a picture is:
+// Reports the progress of a picture at intervals:
 //   "picture view.png: 34% after 5.0 seconds, about 10 seconds left"
 class PictureProgress {
  public:
-  // Gets a line; may be called from several threads at once. Null: nothing is reported.
+  // Receives a line; may be called from several threads at once. Null: nothing is reported.
   using Report = std::function<void(std::string_view)>;
 
-  // seconds: between reports.
+  // seconds: time between reports.
   PictureProgress(std::string name, const Report& report, double seconds)
       : name_(std::move(name)), report_(report), seconds_(seconds) {}
 
@@ -27,7 +27,7 @@ class PictureProgress {
   const Report& report_;
   double seconds_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
-  Clock::time_point started_ = start_;  // when the start of the picture was done, and how much that was
+  Clock::time_point started_ = start_;  // when the initial part of the picture was finished
   double doneThen_ = 0;
 };
 

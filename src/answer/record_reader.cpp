@@ -19,9 +19,9 @@
 namespace rsphere {
 namespace {
 
-// The capacity of a pipe on Linux, which is the most that read(2) can return at once from a pipe.
+// The capacity of a pipe on Linux, which is the most that one read(2) can return from a pipe.
 constexpr size_t kBlock = 65536;
-// Longer words are not read as numbers. The exact decimal digits of any double are shorter than this.
+// Longer words are rejected. The exact decimal digits of any double are shorter.
 constexpr size_t kLongestWord = 4096;
 // Messages show at most this many characters of a malformed word.
 constexpr size_t kShownWord = 40;
@@ -73,12 +73,12 @@ size_t RecordReader::read(std::vector<double>& numbers, size_t most) {
 size_t RecordReader::arrived(size_t most) {
   if (begin_ == end_) refill();
   RecordReader ahead = *this;
-  ahead.atEnd_ = true;  // it takes no more bytes from the descriptor
+  ahead.atEnd_ = true;  // does not read from the descriptor
   std::vector<double> numbers;
   try {
     return ahead.read(numbers, most);
   } catch (const rad::Error&) {
-    return 0;  // read() finds the fault again
+    return 0;  // read() will report the error
   }
 }
 
@@ -90,8 +90,8 @@ double RecordReader::shareRead() const {
   return static_cast<double>(at - static_cast<off_t>(end_ - begin_)) / static_cast<double>(status.st_size);
 }
 
-// Makes room in the block and reads what has arrived; waits for the first byte. Returns false at the end of
-// input or when interrupted.
+// Makes room in the block and reads the input that has arrived; waits for the first byte. Returns false at
+// the end of input or if interrupted.
 bool RecordReader::refill() {
   if (atEnd_ || interrupted_) return false;
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
@@ -134,8 +134,8 @@ void RecordReader::malformed(std::string_view word) const {
                                counted(perRecord_), rad::printable(word, kShownWord)));
 }
 
-// A fast path for most text after the first line: reads the records in the block up to the first that does
-// not consist of plain numbers only.
+// A fast path for most text after the first line: reads records in the block up to the first that does not
+// consist of plain numbers.
 size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
   const char* at = block_.data() + begin_;
   const char* const stop = block_.data() + end_;
@@ -182,11 +182,11 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
         if (error == std::errc() && end < stop && isSpace(*end)) next = end;
       }
     }
-    if (next == at) {  // not a plain number, or its end has not arrived
+    if (next == at) {  // not a plain number, or not yet complete
       while (next < stop && !isSpace(*next)) ++next;
       const std::string_view word(at, static_cast<size_t>(next - at));
       if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
-        // Records that have arrived are returned before the reader waits for more.
+        // Return the records that have arrived before waiting for more.
         if (count > 0 || interrupted_) break;
         refill();
         if (interrupted_) break;
@@ -221,8 +221,8 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
   return count;
 }
 
-// Reads the numbers of a line into partial_. Throws rad::Error if the line is not a record. whole: the
-// end of the line has arrived.
+// Reads the numbers of a line into partial_. Throws rad::Error if the line is not a record. whole: whether
+// the end of the line has arrived.
 void RecordReader::readLine(std::string_view line, bool whole) {
   int count = 0;
   for (size_t at = 0;;) {
@@ -257,7 +257,7 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
     const char* const lineEnd = std::find(at, stop, '\n');
     const bool whole = lineEnd < stop || atEnd_;
     if (!whole && end_ - begin_ < block_.size()) {
-      // Records that have arrived are returned before the reader waits for more.
+      // Return the records that have arrived before waiting for more.
       if (count > 0 || interrupted_) break;
       refill();
       if (interrupted_) break;
@@ -272,7 +272,7 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
     try {
       readLine({at, static_cast<size_t>(lineEnd - at)}, whole);
     } catch (const rad::Error&) {
-      if (count > 0) break;  // the next call finds the fault again, after these records are returned
+      if (count > 0) break;  // return these records first; the next call will report the error
       throw;
     }
     numbers.insert(numbers.end(), partial_.begin(), partial_.begin() + perRecord_);

@@ -14,68 +14,68 @@ namespace rsphere {
 
 struct AnswerOptions;
 
-// The meaning of line ends in records of text: blanks, as in rtrace, or the ends of records. In the latter
-// case each line that is not blank is one record. A line with too many or too few columns is then reported,
-// where it would otherwise shift all later numbers.
+// The meaning of line ends in text records. As in rtrace, they are blanks; or else they end records: each
+// line that is not blank is one record. In the latter case a line with too many or too few columns is
+// reported, instead of shifting all later numbers.
 enum class LineEnds : uint8_t { areBlanks, endRecords };
 
-// Reads records of numbers from a file descriptor: text (numbers between white space, perhaps in quotes) or
-// native floats or doubles. The reader never waits for input while a complete record has arrived, nor for
-// more than the next record needs: a program that writes one record and waits for its answer gets it.
-// Holds one block of input (64 KiB). Not thread-safe.
+// Reads records of numbers from a file descriptor: text (numbers between white space, which may be quoted) or
+// native floats or doubles. It waits for input only if no complete record has arrived, and only for the next
+// record, so that a program may write one record and wait for the answer. Stores one block of input (64 KiB).
+// Not thread-safe.
 class RecordReader {
  public:
   static constexpr int kMostNumbers = 6;
 
   // REQUIRES: format is ascii, float32 or float64; 1 <= numbersPerRecord <= 6. `name` begins the messages.
-  // The caller keeps the descriptor open, and closes it.
+  // The caller keeps the descriptor open, and later closes it.
   RecordReader(int fd, NumberFormat format, int numbersPerRecord, LineEnds lineEnds = LineEnds::areBlanks,
                std::string name = "stdin");
 
-  // The same for the records of a mode. Line ends are the ends of points, because no other program reads
-  // points otherwise; between the numbers of rays they are blanks, as in rtrace.
+  // The same for the records of a mode. Line ends separate points, because there is no other program whose
+  // format of points must be matched. They are blanks between the numbers of rays, as in rtrace.
   RecordReader(int fd, const AnswerOptions& options, std::string name = "stdin");
 
-  // Appends the numbers of the next record, for which it waits, and of those after it that have arrived, up
-  // to `most` records. Returns the number of records; 0 at the end of input or when interrupted.
-  // Throws rad::Error if the next record is malformed or incomplete, after all records before it
-  // were returned: 'stdin:3: expected 6 numbers, got "x"'; for binary input with the number of the
-  // record, from 1. Malformed are
+  // Waits for the next record and appends its numbers, and those of further records that have arrived, up to
+  // `most` records. Returns the number of records; 0 at the end of input or if interrupted. Throws rad::Error
+  // if the next record is malformed or incomplete, after all preceding records were returned: 'stdin:3:
+  // expected 6 numbers, got "x"'. For binary input, 3 is the number of the record, from 1. The following are
+  // malformed:
   // - words that RADIANCE does not read as numbers (nan, inf, 0x10, "1,5", "#") or that a double cannot hold;
-  // - where line ends are the ends of records, lines with fewer or more numbers, or longer than 64 KiB;
+  // - lines with fewer or more numbers, or longer than 64 KiB, if line ends are the ends of records;
   // - binary numbers that are not finite.
   // Throws rad::Error with Status::system if read(2) fails.
   size_t read(std::vector<double>& numbers, size_t most);
 
-  // Waits for the next record and returns the number of records that have arrived, at most `most`. The next
-  // read() returns them.
+  // Waits for the next record. Returns the number of records that have arrived, at most `most`, which the
+  // next read() will return.
   size_t arrived(size_t most);
 
-  // `waiting` is called with true before the reader waits for input, and with false afterwards.
+  // `waiting` is called with true before the reader waits for input, and with false when it stops waiting.
   void whenWaiting(std::function<void(bool)> waiting) { waiting_ = std::move(waiting); }
 
-  // When one of these descriptors becomes readable, waiting ends, and read() returns 0 from then on.
+  // If one of these descriptors becomes readable, waiting ends, and all further calls of read() return 0.
   void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
   bool interrupted() const { return interrupted_; }
 
-  // The numbers of records returned and of bytes read from the descriptor so far.
+  // Number of records returned, and of bytes read from the descriptor.
   uint64_t records() const { return records_; }
   uint64_t bytes() const { return bytes_; }
 
-  // The fraction of a regular file that was returned, from 0 to 1; 0 for other input.
+  // The fraction of a regular file that has been returned, 0 to 1; 0 for other input.
   double shareRead() const;
 
-  // The first line of text that is not blank, after it was read to its end: its number of numbers
-  // shows whether the records have the expected columns. Empty for binary input, and where line
-  // ends are the ends of records.
+  // The first line of text that is not blank, once it was read to its end. The number of values in it shows
+  // whether records have the expected columns. Empty for binary input, and if line ends are the ends of
+  // records.
   struct FirstLine {
     uint64_t line = 1;
     int numbers = 0;
   };
   const std::optional<FirstLine>& firstLine() const { return firstLine_; }
 
-  // Whether the first record of binary input, after it was read, consists of printable characters only. Text
-  // does; hardly any floats or doubles do.
+  // Whether the first record of binary input, once it was read, consists of printable characters only. Text
+  // does, but hardly any floats or doubles do.
   bool firstRecordIsText() const { return firstIsText_; }
 
  private:
@@ -94,12 +94,12 @@ class RecordReader {
   LineEnds lineEnds_;
   std::string name_;
   std::vector<char> block_;
-  size_t begin_ = 0, end_ = 0;  // the part of the block that is still to be read
+  size_t begin_ = 0, end_ = 0;  // the unread part of the block
   bool atEnd_ = false, interrupted_ = false;
   std::vector<int> wakeFds_;
   std::function<void(bool)> waiting_;
   uint64_t records_ = 0, bytes_ = 0;
-  // Text: the line that begin_ lies on, from 1, and the numbers of a record that is still incomplete.
+  // Text: the line of begin_, from 1, and the numbers of an incomplete record.
   uint64_t line_ = 1, lastNumberLine_ = 1;
   std::array<double, kMostNumbers> partial_{};
   int partialCount_ = 0;

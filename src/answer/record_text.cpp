@@ -20,7 +20,7 @@ void RecordText::number(double x) {
       break;
     }
     case NumberFormat::float64:
-    case NumberFormat::rgbe:  // does not occur: parseOptions() allows a single colour only
+    case NumberFormat::rgbe:  // cannot occur: parseOptions() allows a single colour only
       bytes_.append(reinterpret_cast<const char*>(&x), sizeof x);
       break;
   }

@@ -9,18 +9,18 @@
 
 namespace rsphere {
 
-// Appends numbers, names and colours to a record as rtrace writes them: as text followed by a TAB, or as
-// native floats or doubles. Names are text in every format.
+// Appends numbers, names and colours to a record in rtrace's formats: as text followed by a TAB, or as native
+// floats or doubles. Names are text in all formats.
 class RecordText {
  public:
-  // `bytes` must live as long.
+  // `bytes` must exist as long as this object.
   RecordText(std::string& bytes, NumberFormat format) : bytes_(bytes), format_(format) {}
 
   void number(double x);
-  void integer(uint64_t n);    // in text: all its digits, where "%e" has only seven
+  void integer(uint64_t n);    // in text with all digits, because "%e" has only seven
   void vector(const V3d& v);   // three numbers
-  void color(const Color& c);  // three numbers, or one RGBE pixel where the format is rgbe
-  // A number for each band. Where the format is rgbe, one pixel: a byte for each band, and the exponent.
+  void color(const Color& c);  // three numbers, or one pixel if the format is rgbe
+  // One number for each band. If the format is rgbe, a pixel: one byte for each band, then the exponent.
   void spectrum(std::span<const double> bands);
   void name(std::string_view n);  // the name and a TAB
   void end();                     // in text: a line end

@@ -26,27 +26,28 @@ constexpr std::array<Named, 6> kSignals = {{{SIGINT, "Interrupt"},
                                             {SIGXCPU, "CPU limit exceeded"},
                                             {SIGXFSZ, "File size exceeded"}}};
 constexpr int kStatus = 3;          // as in rtrace(1)
-constexpr unsigned kPatience = 15;  // seconds in which to finish, as in rtrace
-// timeout(1) sends its signal to the process and to its group: twice within microseconds, or longer if it is
-// interrupted in between. systemd sends HUP right after TERM. A person who asks a second time is slower.
+constexpr unsigned kPatience = 15;  // time to finish, in seconds; as in rtrace
+// Signals within this time are a single request. timeout(1) sends its signal to the process and to its group:
+// twice within microseconds, or more if it is interrupted in between. systemd sends HUP directly after TERM.
+// A person who repeats a request is slower.
 constexpr int64_t kOneRequest = 50'000'000;  // ns
 
 struct State {
-  std::atomic<int> raised{0};  // the first signal
+  std::atomic<int> raised{0};  // first signal
   std::atomic<int64_t> raisedAt{0};
   std::atomic<bool> deferred{false};
-  std::atomic<bool> told{false};  // whether the caller of name() writes the message
+  std::atomic<bool> told{false};  // whether the caller of name() will write the message
   std::atomic<bool> ending{false};
   std::atomic<int> messageFd{2};
   int pipe[2] = {-1, -1};
   std::array<std::string, kSignals.size()> messages;
-  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is for SIGPIPE
+  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is that of SIGPIPE
 };
 State state;
 
-// Opens /dev/null in place of each standard descriptor that is closed. Otherwise the next file opened would
-// get its number, and would be read or written in its place. The files are opened for the wrong direction, so
-// that each use is an error, as it is for a closed descriptor.
+// Opens /dev/null for each standard descriptor that is closed. Otherwise the next file opened would get its
+// number, and be read or written instead. It is opened for the wrong direction, so that any use is an error,
+// as for a closed descriptor.
 void occupyStandardDescriptors() {
   for (int fd = 0; fd <= 2; ++fd)
     if (fcntl(fd, F_GETFD) < 0) {
@@ -66,14 +67,14 @@ void onSignal(int number) {
   int first = 0;
   const bool again = !state.raised.compare_exchange_strong(first, number);
   if (!again) state.raisedAt = now();
-  // The time is still 0 if another thread is handling the first signal at this moment.
+  // The time is still 0 while another thread is handling the first signal.
   const int64_t raisedAt = state.raisedAt;
   if (again && state.deferred && (raisedAt == 0 || now() - raisedAt < kOneRequest)) {
     errno = error;
     return;
   }
   if (again || !state.deferred) {
-    // Another thread may be here already; it writes the message.
+    // If another thread is already here, that thread writes the message.
     if (state.ending.exchange(true)) return;
     for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
       if (kSignals[i].number == (again ? first : number)) {

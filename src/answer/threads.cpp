@@ -22,8 +22,7 @@ void* call(void* work) {
   return nullptr;
 }
 
-// A thread with a stack of kStack, which its destructor joins: std::thread cannot
-// choose the size of its stack.
+// A thread with a stack of kStack bytes, joined by its destructor. std::thread cannot choose the stack size.
 class Thread {
  public:
   // Throws std::system_error if the thread cannot be started.
@@ -44,7 +43,7 @@ class Thread {
   pthread_t thread_;
 };
 
-// The number of stacks that fit into half of the memory limits.
+// The number of stacks that fit into half of the memory limit.
 unsigned mostThreads() {
   rlim_t most = std::numeric_limits<unsigned>::max();
   for (const auto resource : {RLIMIT_DATA, RLIMIT_AS}) {

@@ -4,19 +4,19 @@
 
 namespace rsphere {
 
-// The number of threads that -n asks for: `asked`, or one for each core where it is 0.
+// The number of threads requested with -n: `asked`, or one for each core if it is 0.
 unsigned wantedThreads(int asked);
 
-// The number of threads to start: those wanted, but no more than have room for their stacks (64 MB each) in
-// half of the memory that the process may have (RLIMIT_DATA, RLIMIT_AS), and at least one. The other half is
-// for the scene and the answers. The same at each call, unless these limits change.
+// The number of threads to start: as many as requested, but at least one, and no more than have room for
+// their stacks (64 MB each) in half of the memory limit (RLIMIT_DATA, RLIMIT_AS). The other half is for the
+// scene and the answers. The result only changes with these limits.
 unsigned threadCount(int asked);
 
-// Calls work(worker) on each of `count` new threads, with worker = 0, 1, ..., and returns when all of them
-// have ended. Each thread has a stack of 64 MB, of which the system provides the pages that are used: the
-// surfaces along a path are traced recursively, and a path may meet many. If the system starts only some of
-// the threads, calls fewer(started, reason) and goes on with those. Throws rad::Error (Status::system) if it
-// starts none. Meanwhile, watch(started) runs on the calling thread. REQUIRES: none of them throws.
+// Calls work(worker) on each of `count` new threads, with worker = 0, 1, ..., and returns when all have
+// ended. Each thread has a stack of 64 MB, because surfaces along a path are traced recursively, and a path
+// may have many; the system provides only the pages that are used. If only some threads can be started, calls
+// fewer(started, reason) and continues with them. Throws rad::Error (Status::system) if none can be started.
+// Meanwhile, watch(started) runs on the calling thread. REQUIRES: none of these functions throws.
 void runOnThreads(unsigned count, const std::function<void(unsigned worker)>& work,
                   const std::function<void(unsigned started, const std::string& reason)>& fewer = {},
                   const std::function<void(unsigned started)>& watch = {});

@@ -72,7 +72,7 @@ struct GlareEstimator::View {
   std::vector<Look> looks;
   struct Set {
     double illuminance = 0;    // at the eye, lx
-    double taskLuminance = 0;  // 0 if no task is given
+    double taskLuminance = 0;  // 0 if it is not needed
   };
   std::array<Set, kSets> sets{};
   size_t leftOut = kSets;  // the set that the jackknife leaves out; kSets: none

@@ -20,13 +20,13 @@ struct SphereOptions {
   int mostForAccuracy = 0;                      // limit for all sets of -Sa, if it is larger than -Sx
   double densityFactor = 1;                     // -Sk
   double accuracy = 0;                          // -Sa  0: off
-  double clamp = 0;                             // largest share of one direction in the mean; 0: off
+  double clamp = 0;                             // -Sf  largest share of one direction in the mean; 0: off
   Weights weights = Weights::silhouettes;       // -Sw
   bool basicRadiance = false;                   // -Sb
   bool everyDirection = false;                  // -Sd
   uint64_t rotation = 0;                        // -Sr
-  int zones = 0;                                // number of zones or bins; 0: none
-  std::string zoneOf, zoneCount;                // expressions for bins; empty: not given
+  int zones = 0;                                // -Sz  number of zones or bins; 0: none
+  std::string zoneOf, zoneCount;                // -Szb -Szn  expressions for bins; empty: not given
   std::shared_ptr<const DirectionBins> bins{};  // from these expressions; their number is `zones`
   bool verify = false;                          // -Sv
   GlareOptions glare;                           // -Su -Sub -Sut

@@ -9,7 +9,7 @@ namespace rsphere {
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims{};                                       // targets of indirect rays
+  Aims aims{};                                       // where indirect rays are aimed
   std::shared_ptr<const VertexLight> vertexLight{};  // PathRequest::vertexLight; null: none
   FoundAims ofPoints{};                              // owns the members of `aims` that were found for points
                                                      // only
