@@ -38,8 +38,8 @@ Error BinaryReader::fault(std::string_view text) const {
   return Error(fmt::format("{}: {} at byte {}", printable(name_, kLongestName), text, offset()));
 }
 
-// Moves the data from keep on to the front of the block, together with next_, and reads more data behind
-// them. At the end of the data, returns false and moves nothing.
+// Moves the data starting at keep to the front of the block, adjusts next_, and appends newly read data. At
+// the end of the data, returns false and moves nothing.
 bool BinaryReader::refill(const uint8_t*& keep) {
   if (descriptor_ < 0) return false;
   blockOffset_ += static_cast<uint64_t>(keep - block_.get());

@@ -12,10 +12,10 @@
 namespace rad {
 namespace {
 
-// The types by the numbers that the data use. Empty for a type that this program does not know.
+// Types by their numbers in the data. Empty for a type unknown to this program.
 using TypeTable = std::vector<std::optional<Type>>;
 
-constexpr int kEnd = 255;  // instead of a type number: end of the primitives
+constexpr int kEnd = 255;  // in place of a type number, it ends the primitives
 
 TypeTable readTypes(BinaryReader& input, const Warn& warn) {
   TypeTable types;

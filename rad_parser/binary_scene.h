@@ -6,23 +6,22 @@
 
 namespace rad {
 
-// The parts that octrees and meshes have in common. Errors are thrown with the byte at
-// which they were noticed.
+// Reads the parts that octrees and meshes have in common. Errors contain the byte at which they were noticed.
 
-// The width of object numbers, 1 to 8 bytes: the difference between the format number and `magic`.
-// otherFormat: the format that the header names, if it is not the format of these data. It is given as the
-// reason in the error that is thrown for a width out of range.
+// Reads the width of object numbers, 1 to 8 bytes: the format number minus `magic`. Throws if it is out of
+// range. otherFormat: the format in the header, if it is not that of these data; it is then the reason given
+// in the error.
 int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat = {});
 
 // The cube that encloses all surfaces. It is stored as four numbers in text.
 Cube readCube(BinaryReader& input);
 
-// Reads the cells of an octree in the order of the file, without keeping them. Calls object(n) for each entry
-// of each leaf, where n is an object number, or a triangle number in a mesh. The entries of a leaf ascend.
-// Takes time in proportion to the data, and constant memory.
+// Reads the cells of an octree in file order, without storing them. Calls object(n) for each entry of each
+// leaf, where n is the number of an object (in a mesh, of a triangle). The entries of a leaf are in ascending
+// order. Takes constant memory, and time in proportion to the data.
 template <class Object>
 void passOverCells(BinaryReader& input, int width, Object object) {
-  for (uint64_t open = 1; open > 0; --open) {  // cells that are still to come
+  for (uint64_t open = 1; open > 0; --open) {  // cells not yet read
     switch (input.byte()) {
       case 0:
         break;
@@ -47,14 +46,14 @@ void passOverCells(BinaryReader& input, int width, Object object) {
   }
 }
 
-// Reads binary primitives into the builder, as primitives of its file `file`. Their places are their
-// numbers. Their modifiers are earlier primitives of the same data, which must begin the builder's
-// description. An unknown type name causes a warning, and an error once a primitive has this type. Returns
-// the number of primitives.
+// Reads binary primitives into the builder, as primitives of file `file`; their places are their numbers.
+// Modifiers refer to earlier primitives of the same data, which must be the first in the builder's
+// description. An unknown type name causes a warning, and an error if a primitive has this type. Returns the
+// number of primitives.
 //
-// An alias refers to another primitive by number if both have the same modifier; otherwise by name. In the
-// former case the name of that primitive becomes the alias's string argument, which may differ from the name
-// that the alias was written with.
+// An alias with the same modifier as another primitive refers to it by number, any other alias by name. In
+// the former case the name of that primitive becomes the string argument of the alias, which may differ from
+// the name in the original text.
 int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, DescriptionBuilder& builder,
                        const Warn& warn);
 

@@ -34,10 +34,10 @@ AngleBasis klems(std::string_view name, std::vector<AngleBasis::Ring> rings) {
   return basis;
 }
 
-// The numbers and braces in the text of an element, with their places for messages.
+// The numbers and braces in the text of an element, with their lines for messages.
 class Data {
  public:
-  // firstLine: the line of the file in which the text begins.
+  // firstLine: line of the file in which the text begins.
   Data(std::string_view text, std::string_view file, ptrdiff_t firstLine)
       : text_(text), file_(file), firstLine_(firstLine) {}
 
@@ -112,7 +112,7 @@ class TreeReader {
     data_.take(',');
   }
 
-  // Reads the values of an even grid with 1, 2, 4 .. cells along each dimension. The index of the last
+  // Reads the values of an even grid with 1, 2, 4, ... cells along each dimension. The index of the last
   // dimension varies fastest.
   void readGrid(size_t node, int depth) {
     values_.clear();
@@ -125,7 +125,7 @@ class TreeReader {
     spread(node, 0, halvings, halvings);
   }
 
-  // Turns a part of a grid into a subtree. The part begins at `from` and has 2^halvings cells along each
+  // Converts a part of a grid into a subtree. The part begins at `from` and has 2^halvings cells along each
   // dimension; the whole grid has 2^whole.
   void spread(size_t node, size_t from, int halvings, int whole) {
     if (halvings == 0) {
@@ -208,7 +208,7 @@ class BsdfReader {
   // The text of an element, without surrounding blanks.
   static std::string_view word(pugi::xml_node node) { return trimmed(node.child_value()); }
 
-  // The numbers in an element. If comments divide its text, the pieces are joined.
+  // The numbers in an element. If comments divide its text, the parts are joined.
   Data data(pugi::xml_node node) {
     std::string_view whole;
     size_t pieces = 0;
@@ -265,7 +265,7 @@ class BsdfReader {
     defined_.push_back(std::move(basis));
   }
 
-  // The index in file_.bases of the basis that the block's child names.
+  // The index in file_.bases of the basis named in the block's child.
   size_t basisOf(pugi::xml_node block, const char* which) {
     const std::string_view name = word(block.child(which));
     if (name.empty()) fail(block, fmt::format("no {}", which));
@@ -301,7 +301,7 @@ class BsdfReader {
     }
   }
 
-  // Other components, such as absorptance, are not needed.
+  // Other components, such as absorptance, are ignored.
   static std::optional<BsdfFile::Component> componentOf(std::string_view direction) {
     if (sameWord(direction, "Reflection Back")) return BsdfFile::kReflectionFront;
     if (sameWord(direction, "Reflection Front")) return BsdfFile::kReflectionBack;
@@ -348,8 +348,8 @@ class BsdfReader {
     (channel == Channel::y ? trees->y : channel == Channel::first ? trees->u : trees->v) = std::move(tree);
   }
 
-  // Drops chromaticity without luminance, and single coordinates of chromaticity, because they
-  // do not determine a colour.
+  // Removes chromaticity without luminance, and single coordinates of chromaticity, because they do not
+  // determine a colour.
   void dropIncomplete() {
     for (auto& m : file_.matrices) {
       if (m && m->y.empty()) m.reset();

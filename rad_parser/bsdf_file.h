@@ -15,7 +15,7 @@ namespace rad {
 // azimuth; its first cell is centred at azimuth 0.
 struct AngleBasis {
   struct Ring {
-    double upper = 0;  // largest polar angle, degrees; the smallest is the largest of the ring before, or 0
+    double upper = 0;  // largest polar angle, degrees; the smallest is that of the preceding ring, or 0
     size_t cells = 1;
     bool operator==(const Ring&) const = default;
   };
@@ -28,10 +28,10 @@ struct AngleBasis {
 struct BsdfMatrix {
   size_t incident = 0, scattered = 0;  // index in BsdfFile::bases
   std::vector<float> y;                // at [scattered cell * number of incident cells + incident cell]
-  std::vector<float> x, z;             // laid out as y; both are empty for grey scattering
+  std::vector<float> x, z;             // in the same order as y; both are empty for grey scattering
 };
 
-// A function on the unit cube of `rank` dimensions. It is constant on smaller cubes that result from repeated
+// A function on the unit cube of `rank` dimensions. It is constant on smaller cubes, obtained by repeated
 // halving along all dimensions.
 struct TensorTree {
   struct Node {
@@ -57,22 +57,22 @@ struct BsdfTrees {
 struct BsdfFile {
   enum Component : size_t { kReflectionFront, kReflectionBack, kTransmissionFront, kTransmissionBack };
   static constexpr size_t kComponents = 4;
-  // The width of the smallest possible cell of a tree is 2^-kDeepest.
+  // The smallest possible cell of a tree has the width 2^-kDeepest.
   static constexpr int kDeepest = 15;
 
   int rank = 0;                   // 3 or 4: trees; 0: matrices
-  std::vector<AngleBasis> bases;  // those that the matrices use
+  std::vector<AngleBasis> bases;  // bases used by the matrices
   std::array<std::optional<BsdfMatrix>, kComponents> matrices;
   std::array<std::optional<BsdfTrees>, kComponents> trees;
 
   // Reads such a file. name: for messages.
   // - Negative scattering is replaced by 0.
-  // - Of several layers, the first is read; of several blocks for one component, the last.
+  // - The first of several layers is read, and the last of several blocks for the same component.
   // - Spectral bands are ignored, except the visible band and its chromaticity.
   // Memory is in proportion to the length of the text. Throws Error "NAME:LINE: .." for text that is not XML
   // or not a BSDF, an unsupported structure or angle basis, missing or wrong numbers, and trees that are
-  // unbalanced or deeper than kDeepest. Warns of surplus numbers behind a matrix, and of a definition of a
-  // Klems basis that differs from the standard one, which is then used.
+  // unbalanced or deeper than kDeepest. Warns of surplus numbers after a matrix, and if a Klems basis is
+  // defined differently from the standard; the standard basis is then used.
   static BsdfFile parse(std::string_view text, std::string_view name, const Warn& warn = {});
 };
 

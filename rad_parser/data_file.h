@@ -9,40 +9,39 @@ namespace rad {
 
 // A table of numbers on a rectangular grid of n dimensions, from a data file (.dat). Immutable.
 //
-// The file contains n, then for each axis "first last count" for evenly spaced divisions, or "0 0 count"
-// followed by `count` divisions, and then the values. The index of the last axis varies fastest. Numbers are
-// separated by white space; '#' begins a comment. Numbers are kept in single precision, as in RADIANCE.
+// The file contains n; for each axis "first last count" for evenly spaced divisions, or "0 0 count" followed
+// by `count` divisions; and then the values, with the index of the last axis varying fastest. Numbers are
+// separated by white space; '#' begins a comment. As in RADIANCE, numbers are stored in single precision.
 // Source: RADIANCE file formats, "Data File Format".
 class DataFile {
  public:
-  // Up to 2^10 values are interpolated. RADIANCE allows 6 dimensions.
+  // An interpolation uses up to 2^10 values. RADIANCE allows 6 dimensions.
   static constexpr size_t kMaxDimensions = 10;
 
-  // Throws Error "NAME:LINE: .." for a number that is missing or malformed, fewer than two divisions,
-  // divisions that are neither strictly increasing nor strictly decreasing, and fewer values than the grid
-  // has points. Text behind the values is not read.
+  // Throws Error "NAME:LINE: .." for a missing or malformed number, fewer than two divisions, divisions that
+  // are neither strictly increasing nor strictly decreasing, and fewer values than grid points. Text after
+  // the values is ignored.
   static DataFile parse(std::string_view text, std::string_view name);
 
   size_t dimensions() const { return axes_.size(); }
 
-  // The divisions of an axis: their number, the first and the last of them, and whether they are evenly
-  // spaced.
+  // The divisions of an axis: their number, the first and the last one, and whether they are evenly spaced.
   struct Divisions {
     size_t count = 0;
     double first = 0, last = 0;
     bool even = true;
   };
   Divisions divisions(size_t axis) const;
-  // The divisions of an axis that are not evenly spaced; empty if they are.
+  // The divisions of an axis if they are unevenly spaced, otherwise empty.
   std::span<const float> unevenDivisions(size_t axis) const { return axes_[axis].points; }
 
   // The value at a point with dimensions() coordinates. It is interpolated linearly along each axis, and
-  // extrapolated linearly by up to one division beyond its ends. Further out it falls towards 0 with the
-  // inverse of the distance. Let u be the position in units of divisions, with the ends at 0 and n-1. Then
-  // the weights of the two values next to an end are
+  // extrapolated linearly by up to one division beyond the ends. Farther out it falls towards 0 with the
+  // inverse of the distance. Let u be the position in units of divisions, with the ends at 0 and n-1. The
+  // weights of the two values at an end are then
   //   below -1:  2/-u and -1/-u for the first and the second;
   //   above n:   2/(u-n+3) and -1/(u-n+3) for the last and the one before it.
-  // The weights above n drop by a factor of 3 at u = n. This follows RADIANCE, with which existing scenes
+  // The weights above n drop by a factor of 3 at u = n. This is RADIANCE's rule, with which existing scenes
   // were made. Weights within 1e-6 of 0 are treated as 0. Thread-safe.
   double value(std::span<const double> point) const;
 

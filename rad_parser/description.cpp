@@ -16,7 +16,7 @@ namespace rad {
 std::string Description::at(Place place) const {
   const auto alone = [this](Place p) {
     const SourceFile& file = files[p.file];
-    // The first words identify a command, but only the whole path identifies a file.
+    // The first words are sufficient to identify a command, but a file is only identified by its whole path.
     const std::string name = printable(file.name, file.name.starts_with('!') ? 100 : kLongestName);
     if (p.line == 0) return name;
     return file.numbered ? fmt::format("{}: object {}", name, p.line) : fmt::format("{}:{}", name, p.line);

@@ -9,8 +9,8 @@
 
 namespace rad {
 
-// Builds a description primitive by primitive from any format, and keeps track of which definition of each
-// modifier is in force. The arguments of the next primitive are appended between begin() and add().
+// Builds a description from any format, one primitive after the other, and tracks the current definition of
+// each modifier. The arguments of the next primitive are appended between begin() and add().
 class DescriptionBuilder {
  public:
   DescriptionBuilder() : words_(description_.words) {}
@@ -25,17 +25,17 @@ class DescriptionBuilder {
 
   uint32_t intern(std::string_view word) { return words_.intern(word); }
 
-  // The definition of this modifier that is in force now, or kVoid if there is none.
+  // The current definition of this modifier, or kVoid if there is none.
   PrimitiveId modifier(std::string_view name) const;
 
-  // The nearest modifier that is in force now, or void, as the end of a message (see NearestName::hint()).
-  // Takes time in proportion to the number of primitives.
+  // The most similar modifier that is currently defined, or void, as the end of a message (see
+  // NearestName::hint()). The time is proportional to the number of primitives.
   std::string nearestModifier(std::string_view name) const;
 
-  // A primitive without arguments. Its arguments will be the next ones of description().
+  // A primitive without arguments. Arguments appended to description() next belong to it.
   Primitive begin(Type type, Place place, std::string_view name, PrimitiveId modifier) const;
 
-  // Append an argument of the primitive that was begun last.
+  // These append an argument to the primitive begun last.
   void addString(Primitive& p, std::string_view word);
   void addReal(Primitive& p, double value) {
     if (p.type == Type::polygon) {
@@ -47,14 +47,14 @@ class DescriptionBuilder {
     ++p.reals;
   }
 
-  // Makes p an alias of the primitive `reference`, or of the primitive that this one is an alias of.
-  // inherit: p also gets the modifier of `reference`; otherwise p keeps its own.
+  // Makes p an alias of the primitive `reference`; if that is an alias itself, of its target. inherit: p also
+  // gets the modifier of `reference`; otherwise p keeps its own.
   void resolveAlias(Primitive& p, PrimitiveId reference, bool inherit) const;
 
-  // Appends the primitive that was begun last. If it is a modifier, it is in force from here on.
+  // Appends the primitive begun last. If it is a modifier, it becomes the current definition of its name.
   void add(const Primitive& p);
 
-  // The error with this text at this place.
+  // An error with this text at this place.
   Error error(Place place, std::string_view text, Status status = Status::input) const;
 
   Description take() { return std::move(description_); }
@@ -62,7 +62,7 @@ class DescriptionBuilder {
  private:
   Description description_;
   WordTable words_;
-  std::vector<PrimitiveId> inForce_;  // by word: the last modifier of that name, or kVoid
+  std::vector<PrimitiveId> inForce_;  // by word: the current modifier of that name, or kVoid
 };
 
 }  // namespace rad

@@ -10,8 +10,8 @@ namespace rad {
 enum class Status { input = 1, system = 2, signal = 3 };
 
 // An error that stops the work. what() is one line that begins with the place of the error ("room.rad:12:
-// undefined modifier "wall""), without the program's name and without a line end. It is printable whatever
-// the text contains (messageLine(), printable.h).
+// undefined modifier "wall""), without the program's name and without a line end. It is printable regardless
+// of the text (messageLine(), printable.h).
 class Error : public std::runtime_error {
  public:
   explicit Error(std::string_view text, Status status = Status::input);
@@ -21,8 +21,8 @@ class Error : public std::runtime_error {
   Status status_;
 };
 
-// Receives a warning: one line that begins with its place, without the program's name. It may be called only
-// from the thread that reads. An empty function ignores warnings.
+// Receives a warning: one line that begins with its place, without the program's name. It is called only from
+// the thread that reads. An empty function ignores warnings.
 using Warn = std::function<void(std::string_view)>;
 
 }  // namespace rad

@@ -28,7 +28,7 @@ std::optional<std::string> inHome(std::string_view name) {
   return found->pw_dir + rest;
 }
 
-// Whether a name is not searched along RAYPATH.
+// Whether a name is used as it is, without searching along RAYPATH.
 bool standsAlone(std::string_view name) { return name[0] == '/' || name[0] == '.' || name[0] == '~'; }
 
 bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }

@@ -11,8 +11,8 @@
 namespace rad {
 
 bool Glyph::covers(double x, double y) const {
-  // The bounding box is tested, and edges are selected, with the middle of the grid cell,
-  // in which no vertex lies.
+  // The bounding box is tested, and edges are selected, with the middle of the grid cell, because it contains
+  // no vertex.
   const double column = std::floor(x) + .5, row = std::floor(y) + .5;
   if (!(column > left && column < right && row > bottom && row < top)) return false;
   bool inside = false;
@@ -23,7 +23,7 @@ bool Glyph::covers(double x, double y) const {
     if (aRight && bRight) {
       inside = !inside;
     } else if (aRight || bRight) {
-      // Whether the edge passes to the right of the point itself.
+      // Whether the edge passes on the right of the exact point.
       const bool leftOf = (a.y - y) * (b.x - x) > (a.x - x) * (b.y - y);
       if (leftOf != (b.y > a.y)) inside = !inside;
     }
@@ -90,12 +90,12 @@ void TextLayout::spaceEvenly(Line& line) const {
 void TextLayout::squeeze(Line& line, int spacing) const {
   const int half = spacing / 2;
   line.advance.assign(line.text.size() + 1, 0);
-  size_t last = 0;  // index of the advance after the last character that was set
+  size_t last = 0;  // index of the advance after the last character that exists in the font
   while (last < line.text.size() && glyph(line, last) == nullptr) ++last;
   line.advance[last] = half;
   for (size_t i = last; i < line.text.size(); ++i) {
     const Glyph* g = glyph(line, i);
-    if (g == nullptr) continue;  // it takes no room, so that its neighbours are adjacent
+    if (g == nullptr) continue;  // it takes no space, so that its neighbours are adjacent
     if (g->vertices.empty()) {
       line.advance[i + 1] = font_.meanWidth();
     } else {
@@ -106,8 +106,8 @@ void TextLayout::squeeze(Line& line, int spacing) const {
   line.advance.back() += half;
 }
 
-// Squeezes the line, then stretches each word, together with the blanks behind it, to as many mean widths as
-// it has characters. Columns of words therefore align if more than three blanks separate them.
+// Squeezes the line, then stretches each word, together with the blanks after it, to as many mean widths as
+// it has characters. Columns of words are therefore aligned if more than three blanks separate them.
 void TextLayout::spaceProportionally(Line& line, int spacing) const {
   constexpr size_t column = 3;
   squeeze(line, spacing);

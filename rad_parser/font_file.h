@@ -25,34 +25,34 @@ struct Glyph {
   bool covers(double x, double y) const;
 };
 
-// A polygon font (.fnt). The file contains for each character its code (1..255), the number of its vertices,
-// and the vertices; '#' begins a comment. Source: RADIANCE file formats, "Font File Format".
+// A polygon font (.fnt). For each character the file contains its code (1 to 255), the number of its
+// vertices, and the vertices; '#' begins a comment. Source: RADIANCE file formats, "Font File Format".
 class FontFile {
  public:
-  // Throws Error "NAME:LINE: .." for a word that is not an integer, a code that is out of range or occurs
-  // twice, more than 32000 vertices, and a coordinate out of range.
+  // Throws Error "NAME:LINE: .." for a word that is not an integer, a code that is out of range or repeated,
+  // more than 32000 vertices, and a coordinate out of range.
   static FontFile parse(std::string_view text, std::string_view name);
 
   // Null if the font lacks the character.
   const Glyph* glyph(unsigned char code) const { return glyphs_[code] ? &*glyphs_[code] : nullptr; }
 
-  int meanWidth() const { return meanWidth_; }  // of the characters with an area, in grid steps
+  int meanWidth() const { return meanWidth_; }  // mean over characters with an area, in grid steps
 
  private:
   std::array<std::optional<Glyph>, 256> glyphs_;
   int meanWidth_ = 0;
 };
 
-// Lines of text set in a font, for brighttext, colortext and mixtext. Immutable.
+// Lines of text in a font, for brighttext, colortext and mixtext. Immutable.
 class TextLayout {
  public:
-  // spacing: the primitive's argument, in widths of a full character. Positive values give proportional
-  // spacing, negative values narrow spacing; with 0, or without a value, all characters have the same width.
-  // The font must outlive this object. Source: RADIANCE reference manual, "Brighttext", "Mixtext".
+  // spacing: the primitive's argument, in widths of a full character. Positive values select proportional
+  // spacing, negative values narrow spacing; with 0 or no value, all characters have the same width. The font
+  // must outlive this object. Source: RADIANCE reference manual, "Brighttext", "Mixtext".
   TextLayout(const FontFile& font, std::span<const std::string> lines, std::optional<double> spacing);
 
-  // Whether the text covers the point that is `right` widths of a character to the right of the text's origin
-  // and `down` lines below it. These are the components of (P - A) along the primitive's motion vectors.
+  // Whether the text covers the point that is `right` character widths to the right of the text's origin and
+  // `down` lines below it. These are the components of (P - A) along the primitive's motion vectors.
   bool covers(double right, double down) const;
 
  private:

@@ -11,8 +11,8 @@ namespace rad {
 // The absence of an element. It converts to every type of Id.
 struct None {};
 
-// The index of an element in one sequence, or none. Each sequence has its own Tag, so that an index in one
-// sequence converts neither to an index in another nor to a number. Takes 4 bytes.
+// The index of an element in one sequence, or none. Each sequence has a separate Tag, so that an index in one
+// sequence is convertible neither to an index in another nor to a number. Takes 4 bytes.
 template <class Tag>
 class Id {
  public:
@@ -22,10 +22,10 @@ class Id {
 
   // REQUIRES: not none.
   constexpr size_t index() const { return static_cast<size_t>(number_); }
-  // The index, or -1 for none: the number that seeds, hashes and files contain.
+  // The index, or -1 for none, as used in seeds, hashes and files.
   constexpr int32_t number() const { return number_; }
 
-  // In the order of the sequence; none precedes all.
+  // The order of the sequence; none precedes all elements.
   friend constexpr bool operator==(Id, Id) = default;
   friend constexpr auto operator<=>(Id, Id) = default;
 
@@ -62,7 +62,7 @@ class IdRange {
   size_t first_ = 0, size_ = 0;
 };
 
-// A vector that is indexed by Ids. at() still takes a number.
+// A vector indexed by Ids. at() still takes a number.
 template <class Id, class T>
 class ById : public std::vector<T> {
   using Base = std::vector<T>;

@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kMeshMagic = 319;  // the format number minus the width of object numbers
 
-// The number of a vertex consists of the number of its patch and its number in the patch, of 8 bits.
+// A vertex number consists of the number of its patch, and 8 bits for its number within the patch.
 constexpr uint32_t kPatchVertices = 256;
 constexpr uint32_t kPatchTriangles = 512, kPatchJoiners = 256;
 
 constexpr double kSteps = 4294967296.;  // 2^32: steps along the cube's edge, and in the ranges of u and v
 
-// Bits of a patch's first byte: the data that its vertices have.
+// Bits of a patch's first byte: the kinds of data of its vertices.
 constexpr int kHasPosition = 1, kHasNormal = 2, kHasUv = 4;
 
 class MeshReader {
@@ -32,7 +32,7 @@ class MeshReader {
 
   Mesh read() {
     BinaryReader::Header header = input_.header();
-    // As in rtrace, the number behind the header decides, even if the header names a different format.
+    // As in rtrace, the number after the header decides, even if the header contains a different format.
     const bool named = header.format == "Radiance_tmesh";
     const int width = readIndexWidth(input_, kMeshMagic, named ? "" : header.format);
     const Cube cube = readCube(input_);
@@ -89,7 +89,7 @@ class MeshReader {
 
   uint32_t word() { return static_cast<uint32_t>(input_.integer(4)); }
 
-  // Vertices of patches without normals or (u,v) get zeros, which are no code of a normal or of u.
+  // Vertices of patches without normals or (u,v) get zeros, which are codes of neither a normal nor of u.
   void vertices(int has) {
     const size_t before = mesh_.positions.size(), after = before + patchVertices_;
     for (uint32_t i = 0; i < patchVertices_; ++i) {
@@ -128,7 +128,7 @@ class MeshReader {
     return static_cast<int32_t>(m);
   }
 
-  // Either one material for all triangles follows, or one for each.
+  // Next is either one material for all triangles, or one for each.
   void localTriangles() {
     const uint32_t n = count(kPatchTriangles, "triangles");
     const size_t first = mesh_.triangles.size();
@@ -142,12 +142,12 @@ class MeshReader {
       const int32_t sole = material();
       for (size_t i = first; i < mesh_.triangles.size(); ++i) mesh_.triangles[i].material = sole;
     } else {
-      input_.integer(2);  // the material of no triangles
+      input_.integer(2);  // the material of zero triangles
     }
   }
 
-  // A triangle whose first `away` vertices belong to other patches, which may come later. Their numbers are
-  // kept until joinPatches() replaces them by indices.
+  // A triangle whose first `away` vertices belong to other patches, which may follow later. Their numbers are
+  // stored until joinPatches() replaces them by indices.
   void joiner(size_t away) {
     Mesh::Triangle t;
     for (size_t i = 0; i < away; ++i) {
@@ -192,7 +192,7 @@ Imath::V3d decodeDirection(uint32_t code) {
   constexpr double kScale = 11584.5;  // (2^13 - 1/2) sqrt 2, rounded as in the format
   constexpr uint32_t kMagnitude = 0x1fff;
   const double first = (code >> 5 & kMagnitude) / kScale, second = (code >> 18 & kMagnitude) / kScale;
-  // Both are at most 8191 / 11584.5, so the difference is never negative.
+  // Both are at most 8191 / 11584.5, so the argument of the root is never negative.
   const double largest = std::sqrt(1 - first * first - second * second);
   const bool firstIsX = code >> 3 & 1, secondIsZ = code >> 4 & 1;
   Imath::V3d d;

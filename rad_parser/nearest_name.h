@@ -6,13 +6,13 @@
 
 namespace rad {
 
-// How many letters must be changed, added or removed to turn a into b. Takes time in proportion to the
+// The number of letters to be changed, added or removed to turn a into b. The time is proportional to the
 // product of the lengths.
 size_t editDistance(std::string_view a, std::string_view b);
 
-// The name that a misspelt one most probably stands for, among those given to consider(). Only a few letters
+// The most probable intended name for a misspelt one, among those passed to consider(). Only a few letters
 // may differ: one in names of three to five letters, two in longer ones. Names of one or two letters resemble
-// too many others to be guessed, and those of more than kLongest letters are not compared.
+// too many others to be guessed, and names of more than kLongest letters are not compared.
 class NearestName {
  public:
   static constexpr size_t kLongest = 64;
@@ -22,8 +22,8 @@ class NearestName {
   // The misspelt name itself is ignored.
   void consider(std::string_view name);
 
-  // The nearest name, empty if none is near or if several are equally near. A difference in upper and lower
-  // case counts less than any other.
+  // The nearest name; empty if none is similar enough, or if several are equally near. A difference only in
+  // upper and lower case is smaller than any other.
   std::string_view name() const { return tied_ ? std::string_view() : std::string_view(nearest_); }
 
   // The name as the end of a message, '; the nearest is "plastic"', or nothing.

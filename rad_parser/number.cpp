@@ -10,8 +10,8 @@ namespace {
 
 bool isDigit(char c) { return '0' <= c && c <= '9'; }
 
-// Whether a number that a double cannot represent is too small rather than too large. digits: a
-// valid number without a sign.
+// Whether a number that a double cannot represent is too small rather than too large. digits: a valid number
+// without sign.
 bool tooSmall(std::string_view digits) {
   const size_t e = digits.find_first_of("eE");
   const std::string_view mantissa = digits.substr(0, e);
@@ -33,11 +33,11 @@ constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  
                                             1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                             1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// Powers of ten by the number of digits that were read together.
+// Powers of ten, by the number of digits that are read together.
 constexpr std::array<uint64_t, 9> kScale = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// Reads digits, eight at a time if there are as many characters left. How many of the eight are digits is
-// then found without a branch for each.
+// Reads digits, eight at a time if that many characters are left. The number of digits among the eight is
+// found without branches.
 const char* readDigits(const char* at, const char* last, uint64_t& value) {
   static_assert(std::endian::native == std::endian::little);
   while (last - at >= 8) {
@@ -47,7 +47,7 @@ const char* readDigits(const char* at, const char* last, uint64_t& value) {
     const uint64_t others = ((text + 0x0606060606060606) | text) & 0xf0f0f0f0f0f0f0f0;
     const int count = others ? std::countr_zero(others) / 8 : 8;
     if (count == 0) return at;
-    // Puts zeros before the digits, then combines them to pairs, pairs to fours and fours to eight digits.
+    // Puts zeros before the digits, then combines digits to pairs, pairs to fours, and fours to eight digits.
     text <<= 64 - 8 * count;
     text = text * 10 + (text >> 8);
     text = ((text & 0x000000ff000000ff) * (100 + (uint64_t{1000000} << 32)) +
@@ -63,9 +63,9 @@ const char* readDigits(const char* at, const char* last, uint64_t& value) {
 
 }  // namespace
 
-// A whole number below 10^15 and a power of ten up to 10^22 are exact in a double. One multiplication or
-// division of the two is therefore correctly rounded (Clinger, "How to Read Floating Point Numbers
-// Accurately", PLDI 1990). All other numbers are left to the library.
+// A whole number below 10^15 and a power of ten up to 10^22 are exact in a double, so a single multiplication
+// or division of the two is correctly rounded (Clinger, "How to Read Floating Point Numbers Accurately", PLDI
+// 1990). All other numbers are left to the library.
 std::from_chars_result readReal(const char* first, const char* last, double& value) {
   const char* at = first;
   const bool negative = at != last && *at == '-';

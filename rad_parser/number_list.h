@@ -7,8 +7,8 @@
 
 namespace rad {
 
-// Reads the numbers of a data or font file one after the other. They are separated by white space; '#' begins
-// a comment. Errors are thrown as Error "NAME:LINE: expected WHAT, got ..".
+// Reads the numbers of a data or font file in sequence. They are separated by white space; '#' begins a
+// comment. Errors are thrown as Error "NAME:LINE: expected WHAT, got ..".
 class NumberList {
  public:
   // Both must outlive this object.
@@ -20,11 +20,11 @@ class NumberList {
   // Whether only blanks and comments are left.
   bool atEnd();
 
-  // The number of bytes that have not been read. No more numbers than this can follow, so counts can be
-  // checked before memory is allocated.
+  // The number of bytes not yet read. At most this many numbers can follow, so counts can be checked before
+  // memory is allocated.
   size_t left() const { return text_.size() - position_; }
 
-  // Throws an Error with the place of the number that was read last.
+  // Throws an Error with the line of the last number that was read.
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:

@@ -18,19 +18,19 @@ constexpr std::string_view kFirst = "#?";  // the first characters of most infor
 constexpr int kOctreeMagic = 283;          // the format number minus the width of object numbers
 constexpr size_t kBeginning = 1 << 16;
 
-// The offset behind the empty line that ends the header; npos if there is none.
+// The offset after the empty line that ends the header; npos if there is none.
 size_t headerEnd(std::string_view data) {
   const size_t unix = data.find("\n\n"), dos = data.find("\n\r\n");
   if (unix == data.npos && dos == data.npos) return data.npos;
   return unix < dos ? unix + 2 : dos + 3;
 }
 
-// Reserves memory for as much as the rest of a regular file can contain, so that the vertices of a large
-// scene are not moved repeatedly. Pages of it that are never written cost no memory.
+// Reserves memory for the largest possible contents of the rest of a regular file, so that vertices of a
+// large scene are not moved repeatedly. Pages that are never written take no memory.
 void reserve(Description& d, int64_t objects, int width, uint64_t bytes) {
-  // In bytes: type, modifier, empty name, two counts.
+  // Bytes of the shortest object: type, modifier, empty name, and two counts.
   const uint64_t shortest = 6 + static_cast<uint64_t>(width);
-  // Most of the numbers of a large scene are coordinates of polygons, at 5 bytes.
+  // Most numbers in a large scene are coordinates of polygons, of 5 bytes each.
   d.vertices.reserve((bytes - std::min(bytes, static_cast<uint64_t>(objects) * shortest)) / 15);
 }
 
@@ -66,7 +66,7 @@ bool isOctree(std::string_view beginning, std::string_view name) {
     rest.remove_prefix(lineEnd == rest.npos ? rest.size() : lineEnd + 1);
   }
   if (format == kFormat) return true;
-  // A text may contain an empty line, but not these bytes behind it.
+  // Text may contain an empty line, but not these bytes after it.
   bool hasNumber = false;
   if (end != beginning.npos && beginning.size() >= end + 2) {
     const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);

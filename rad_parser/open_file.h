@@ -15,7 +15,7 @@
 namespace rad {
 
 // A file that is open for reading as long as this object exists. If it cannot be opened, descriptor() is -1
-// and errno contains the reason.
+// and errno is the reason.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -29,11 +29,11 @@ class OpenFile {
   int descriptor() const { return descriptor_; }
   // False for folders, pipes and devices.
   bool isRegular() const { return S_ISREG(begin_.st_mode); }
-  // The number of bytes of a regular file when it was opened.
+  // Size in bytes when the file was opened, if it is regular.
   size_t size() const { return static_cast<size_t>(begin_.st_size); }
 
-  // The contents from the current position on. name: for messages. Throws Error if they cannot be
-  // read, as those of a folder.
+  // The contents, starting at the current position. name: for messages. Throws Error if they cannot be read,
+  // for example if it is a folder.
   std::string contents(std::string_view name) const {
     std::string bytes;
     if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));
@@ -47,9 +47,9 @@ class OpenFile {
     return bytes;
   }
 
-  // Throws Error if the file has been written to since it was opened, because the data that were read may
-  // then be a mixture of old and new ones. Changes that keep the length are detected by the modification
-  // time, which some systems record to 10 ms only.
+  // Throws Error if the file was modified after it was opened, because the data may then be a mixture of old
+  // and new contents. If the size is the same, a change is detected by the modification time, which some
+  // systems only record to 10 ms.
   void requireUnchanged(std::string_view name) const {
     struct stat now {};
     if (!S_ISREG(begin_.st_mode) || fstat(descriptor_, &now) != 0) return;

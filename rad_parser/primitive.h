@@ -7,8 +7,8 @@
 
 namespace rad {
 
-// A place in the scene files: an index of Description::files and a line, from 1; line 0 means the file as a
-// whole. The output of a command has lines of its own. In a numbered file, which has no lines, `line` is the
+// A place in the scene files: an index of Description::files and a line, from 1; line 0 is the file as a
+// whole. Lines of a command are those of its output. In a numbered file, which has no lines, `line` is the
 // number of a primitive, from 1.
 struct Place {
   uint32_t file = 0;
@@ -38,43 +38,42 @@ enum class Type : uint8_t {
 // clang-format on
 inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
 
-// The name of a type as scene files spell it ("BRTDfunc").
+// The name of a type as spelled in scene files ("BRTDfunc").
 std::string_view typeName(Type type);
 
-// Finds the type of this name, which must be spelled exactly. Returns false, and leaves `type`
-// unchanged, if there is none.
+// Finds the type of this name, in exact spelling. Returns false, and leaves `type` unchanged, if there is
+// none.
 bool findType(std::string_view name, Type& type);
 
-// The nearest type of a misspelt name, as the end of a message (see NearestName::hint()).
+// The most similar type for a misspelt name, as the end of a message (see NearestName::hint()).
 std::string nearestType(std::string_view name);
 
-// source .. mesh; all other types are modifiers, which others can name
+// source to mesh; all other types are modifiers, which other primitives can name
 inline bool isSurface(Type type) { return type <= Type::mesh; }
 inline bool isMixture(Type type) { return Type::mixfunc <= type && type <= Type::mixtext; }
 
 using PrimitiveId = Id<struct PrimitiveTag>;  // index in Description::primitives
 
-inline constexpr None kVoid;  // in place of a modifier: none
+inline constexpr None kVoid;  // used instead of a modifier: none
 
-// One primitive as the file describes it. Arguments are kept as written. Whoever uses the primitive checks
-// their number and meaning; a primitive that no surface uses is never checked.
+// One primitive as the file describes it, with unconverted arguments. Their number and meaning are checked
+// when the primitive is used; a primitive that no surface uses is never checked.
 //
-// An alias is a copy of primitives[aliased] with a different modifier: its type and arguments are those of
-// `aliased`, and its modifier is the alias's own `modifier`, never that of `aliased`. All forms of aliases
-// are reduced to this when they are read:
+// An alias is a copy of primitives[aliased] with a different modifier: it has the type and arguments of
+// `aliased`, but its own `modifier`. All forms of aliases are reduced to this when they are read:
 //   M alias a b        `modifier` is the index of M (kVoid for void)
 //   inherit alias a b  `modifier` is that of b
-// If b is an alias itself, `aliased` is that of b, so it is never the index of an alias. An alias has one
-// string argument: the name b as written.
+// If b itself is an alias, its `aliased` is used, so that `aliased` never refers to an alias. An alias has
+// one string argument: the name b as written.
 struct Primitive {
   Type type = Type::alias;
-  PrimitiveId modifier;                   // always before this primitive; kVoid for void
+  PrimitiveId modifier;                   // precedes this primitive; kVoid for void
   PrimitiveId aliased;                    // of type alias only
   Place place;                            // of the primitive's first word
   uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
   uint32_t reals = 0;                     // number of real arguments
-  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs; of a
-                                          // polygon's first vertex in Description::vertices
+  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs; for a polygon,
+                                          // of the first vertex in Description::vertices
   std::string name;
 };
 

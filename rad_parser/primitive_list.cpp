@@ -8,21 +8,21 @@ namespace {
 // A primitive is written as
 //   head                its type, and whether the byte `more` follows
 //   more                which of the values marked with * follow
-//   modifier, line      differences from the preceding primitive's
+//   modifier, line      differences from those of the preceding primitive
 //   * file
 //   * aliased
-//   * strings           their number
-//   * first arguments   if they do not follow those of the preceding primitive
-//   reals               their number
-// and its name, in another list, as
-//   lengths             of what it has in common with the preceding name, and of the rest
+//   * strings           number of strings
+//   * first arguments   if they do not follow the arguments of the preceding primitive
+//   reals               number of reals
+// Its name is stored in another list, as
+//   lengths             of the part in common with the preceding name, and of the rest
 //   the rest
-// Numbers have 7 bits a byte, the lowest first; the highest bit says that more follow. Differences have
+// Numbers have 7 bits a byte, lowest first; the highest bit is set if more bytes follow. Differences have
 // their sign in the lowest bit.
 constexpr uint8_t kMore = 0x40, kTypeBits = 0x3f;
 static_assert(kTypes <= kTypeBits + 1);
 constexpr uint8_t kFile = 1, kAliased = 2, kStrings = 4, kArguments = 8;
-// Both lengths of a name take one byte if they are below 16, except for this byte, behind which they follow.
+// Two lengths below 16 share one byte. If one is longer, or both are 15, this byte precedes them.
 constexpr uint8_t kLongName = 0xff;
 
 void write(std::vector<uint8_t>& bytes, uint64_t number) {
@@ -63,7 +63,7 @@ int64_t readDifference(const std::vector<uint8_t>& bytes, uint64_t& at) {
   return static_cast<int64_t>(n >> 1) ^ -static_cast<int64_t>(n & 1);
 }
 
-// name: in, the preceding one.
+// name: on entry, the preceding name.
 void readName(const std::vector<uint8_t>& bytes, uint64_t& at, std::string& name) {
   const uint8_t lengths = bytes[at++];
   const uint64_t same = lengths == kLongName ? readNumber(bytes, at) : lengths >> 4;
@@ -143,7 +143,7 @@ PrimitiveList::Iterator::Iterator(const PrimitiveList& list, size_t index) : lis
   decode();
 }
 
-// Decodes the primitive at index_, which begins a block or follows the one that was decoded last.
+// Decodes the primitive at index_, which either begins a block or follows the last decoded primitive.
 void PrimitiveList::Iterator::decode() {
   if (index_ >= list_->size()) return;
   Primitive& p = primitive_;

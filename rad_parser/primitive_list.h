@@ -9,16 +9,16 @@
 
 namespace rad {
 
-// The primitives of a description in their order, about 10 bytes each where names and places resemble those
-// before, as they do in large scenes. Primitives are written as their differences from the preceding one, in
-// blocks of kBlock that are decoded from their beginning. Names are front-coded: only the end that differs
-// from the preceding name is stored. Iterating takes constant time for each primitive; looking one up decodes
-// half a block on average, a quarter of a microsecond; a name alone takes less than half of that.
+// The primitives of a description in order. They take about 10 bytes each if names and places are similar to
+// those of the preceding primitive, as they are in large scenes. Primitives are stored as differences from
+// the preceding one, in blocks of kBlock that are decoded from the start. Names are front-coded: only the end
+// that differs from the preceding name is stored. Iterating takes constant time per primitive. Accessing a
+// primitive decodes half a block on average, .25 microseconds; a name alone takes less than half of that.
 class PrimitiveList {
  public:
   static constexpr size_t kBlock = 16;
 
-  // Decodes one primitive after the other. The primitive that it refers to is overwritten by the next one.
+  // Decodes primitives in sequence. The primitive that it refers to is overwritten by the next one.
   class Iterator;
 
   size_t size() const { return isSurface_.size(); }
@@ -30,14 +30,14 @@ class PrimitiveList {
   Primitive operator[](PrimitiveId id) const { return at(id.index()); }
   Primitive at(size_t index) const;
   Primitive back() const { return at(size() - 1); }
-  // The name of the primitive, of which nothing else is decoded.
+  // The name of a primitive, without decoding the rest.
   std::string name(PrimitiveId id) const;
   // Whether the primitive is a surface, without decoding it.
   bool isSurface(PrimitiveId id) const { return isSurface_[id.index()]; }
 
   Iterator begin() const;
   Iterator end() const;
-  // At this primitive.
+  // Begins at this primitive.
   Iterator from(size_t index) const;
 
   void push_back(const Primitive& primitive);
@@ -45,7 +45,7 @@ class PrimitiveList {
   void shrink();
 
  private:
-  // What is needed to decode a block: the preceding primitive's values, and where its arguments end.
+  // The state for decoding a block: values of the preceding primitive, and the end of its arguments.
   struct State {
     uint64_t byte = 0, nameByte = 0;  // of the block in bytes_ and names_
     uint64_t nextReal = 0, nextVertex = 0;
@@ -59,7 +59,7 @@ class PrimitiveList {
   std::vector<uint8_t> bytes_, names_;
   std::vector<State> blocks_;
   std::vector<bool> isSurface_;
-  State state_;           // behind the last primitive
+  State state_;           // after the last primitive
   std::string lastName_;  // of the last primitive of an incomplete block
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kLongestWord = 500, kLongestMessage = 4000, kLongestMissing = 80;
 constexpr std::string_view kCut = "...";
 
-// A character of UTF-8: its number and its length in bytes. The length is 0 if the text does not begin with a
+// A character of UTF-8: its code and its length in bytes. The length is 0 if the text does not begin with a
 // character in its shortest form.
 struct Character {
   uint32_t code = 0;
@@ -42,7 +42,7 @@ bool isShown(const Character& c) {
   return !turnsDirection && !within(0x2028, 0x2029);
 }
 
-// The first character of the text, as it is shown, and its length in the text.
+// The first character of the text in printable form. length: its length in the text.
 std::string_view firstShown(std::string_view text, size_t& length, std::string& escaped) {
   const Character c = characterAt(text);
   length = std::max<size_t>(c.length, 1);
@@ -52,7 +52,7 @@ std::string_view firstShown(std::string_view text, size_t& length, std::string& 
   return escaped;
 }
 
-// The word, which is printable, without its middle if it has more than `longest` bytes.
+// A printable word, without its middle if it has more than `longest` bytes.
 std::string shortened(std::string_view word, size_t longest) {
   if (word.size() <= longest) return std::string(word);
   const size_t half = (longest - kCut.size()) / 2;

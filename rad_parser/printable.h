@@ -4,22 +4,22 @@
 
 namespace rad {
 
-// For printable(): no path of a file that was opened and no excerpt is shown with more bytes.
+// For printable(): the limit in bytes for paths of opened files and for excerpts.
 inline constexpr size_t kLongestName = 480;
 
-// Text from a file or a command line in a form that a message can contain: one line that no terminal takes
-// for a command. UTF-8 text remains as it is. Bytes of control characters (C0, DEL, C1), of characters that
-// end a line or change the direction of writing, and of anything that is not UTF-8 are written as "\x1b".
-// Text that is then longer than `longest` bytes ends with "..." instead of its rest.
+// Converts text from a file or a command line for use in a message: to one line that no terminal interprets
+// as a command. UTF-8 text is kept. Bytes of control characters (C0, DEL, C1), of characters that end a line
+// or change the direction of writing, and of anything that is not UTF-8 are escaped, as in "\x1b". If the
+// result is longer than `longest` bytes, its end is replaced by "...".
 std::string printable(std::string_view text, size_t longest = 80);
 
-// The name of a file that is missing, in the same form. A long one is shown with its beginning and its end,
-// where the file's own name is, in at most 80 bytes.
+// The name of a missing file in the same form. A long name is shortened in the middle to 80 bytes, because
+// its end contains the name of the file itself.
 std::string printableName(std::string_view name);
 
-// A whole message in the same form. Of a word of more than 500 bytes, as a long path, only the beginning and
-// the end are kept, and a message of more than 4000 bytes is cut. Every error (error.h) and
-// every message of the programs passes here. The result is the same when it passes twice.
+// A whole message in the same form. Words of more than 500 bytes, such as long paths, are shortened in the
+// middle, and messages of more than 4000 bytes are cut. All errors (error.h) and all messages of the programs
+// are converted by this function. Converting a message twice does not change it.
 std::string messageLine(std::string_view text);
 
 // Whether a character is a printable ASCII character or a blank.

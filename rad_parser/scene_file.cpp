@@ -23,15 +23,15 @@
 namespace rad {
 namespace {
 
-// The circumstances under which a text is read. They also apply to the files and commands in it.
+// The circumstances in which a text is read. They also apply to the files and commands in it.
 struct Context {
-  std::string directory;  // in which its commands run; empty: the current one
+  std::string directory;  // in which commands run; empty: the current one
   const Transform* transform = nullptr;
   int depth = 0;
-  int64_t copies = 1;  // that the commands around it make of its file
+  int64_t copies = 1;  // number of copies of this file that enclosing commands make
 };
 
-// A command as one line, for messages.
+// A command as a single line, for messages.
 std::string shownCommand(std::string_view command) {
   std::string text = "!";
   for (size_t i = 0; i < command.size(); ++i) {
@@ -51,7 +51,7 @@ bool isWordOfObj(std::string_view word) {
 
 class SceneReader {
  public:
-  // alone: whether only one name was given, which may then be an octree.
+  // alone: whether only one name was given, which may be an octree.
   SceneReader(const ReadOptions& options, bool alone) : options_(options), alone_(alone) {}
 
   void file(const std::string& name) {
@@ -99,8 +99,8 @@ class SceneReader {
   Description take() { return builder_.take(); }
 
  private:
-  // Reads data that begin with `ahead` if they are an octree, and returns true. An empty octree is an error.
-  // Returns false for other data.
+  // If the data, which begin with `ahead`, are an octree, reads it and returns true. An empty octree is an
+  // error. Returns false for other data.
   bool octree(int descriptor, uint32_t file, std::string_view ahead) {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
@@ -129,7 +129,7 @@ class SceneReader {
     return true;
   }
 
-  // Reads a whole text. quiet: do not warn if it contains no primitive.
+  // Reads a whole text. quiet: suppresses the warning if it contains no primitive.
   void all(TextSource& text, const Context& context, uint32_t file, bool quiet = false) {
     const size_t before = builder_.description().primitives.size();
     text.skipByteOrderMark();
@@ -146,7 +146,7 @@ class SceneReader {
     if (!quiet && builder_.description().primitives.size() == before) warn({file, 1}, "empty file");
   }
 
-  // from: the place of the command; from.file is kNoFile if the command was given as a name.
+  // from: the place of the command; from.file is kNoFile if the command was given instead of a file name.
   void command(const std::string& line, Place from, const Context& context) {
     const std::string shown = shownCommand(line);
     const Place place = from.file == SourceFile::kNoFile ? Place{builder_.addFile(shown), 1} : from;
@@ -173,7 +173,8 @@ class SceneReader {
                            fmt::format("cannot execute command: {}", std::strerror(fault.code().value())),
                            Status::system);
     }
-    const bool named = from.file == SourceFile::kNoFile;  // given as a name, so its output may be an octree
+    const bool named = from.file == SourceFile::kNoFile;  // given instead of a file name, so its output may
+                                                          // be an octree
     const std::string ahead = named ? readBeginning(running->output()) : std::string();
     const size_t before = builder_.description().primitives.size();
     if (ahead.empty() || !octree(running->output(), file, ahead)) {
@@ -192,9 +193,9 @@ class SceneReader {
       warn(place, fmt::format("\"{}\" writes nothing", printable(shown)));
   }
 
-  // Surfaces may be missing after a command has failed, which would not be visible in the results. It is
+  // After the failure of a command, surfaces may be missing without any sign in the results. The failure is
   // therefore an error, except where rtrace(1) only warns (goesOn): in the scene files of an octree, and for
-  // a command given as a name.
+  // a command given instead of a file name.
   void badStatus(Place place, const std::string& shown, const std::string& fault, bool goesOn) const {
     const std::string text = fmt::format("bad status from \"{}\": {}", printable(shown), fault);
     if (!goesOn) throw builder_.error(place, text + "; surfaces that it makes may be missing from the scene");
@@ -202,7 +203,7 @@ class SceneReader {
   }
 
   void xform(const std::vector<std::string>& words, Place place, const Context& context) {
-    // The indices of the files by their paths, because each element of an array reads the same files again.
+    // The indices of files by path, because each element of an array reads the same files again.
     std::vector<std::pair<std::string, uint32_t>> seen;
     try {
       const int64_t copies = context.copies * copiesOfArrays(words, context.copies);
@@ -289,7 +290,7 @@ class SceneReader {
     builder_.add(p);
   }
 
-  // What is probably wrong where modifier_ is not defined and no type follows it, as the end of a message.
+  // The probable mistake if modifier_ is undefined and no type follows it, as the end of a message.
   std::string whyNoPrimitive(Place place) const {
     const Description& description = builder_.description();
     const bool first =
@@ -365,13 +366,13 @@ class SceneReader {
     if (options_.warn) options_.warn(fmt::format("{}: {}", builder_.description().at(place), text));
   }
 
-  static constexpr int64_t kMostArguments = 0x7fffffff;  // of one kind in one primitive
+  static constexpr int64_t kMostArguments = 0x7fffffff;  // for each kind of argument in one primitive
 
   const ReadOptions& options_;
   const bool alone_;
-  bool ofOctree_ = false;  // the scene files that are read are those of an octree
+  bool ofOctree_ = false;  // whether the scene files of an octree are being read
   DescriptionBuilder builder_;
-  int64_t passes_ = 0;           // in all xform commands
+  int64_t passes_ = 0;           // in all xform commands together
   std::string modifier_, name_;  // of the current primitive; members, so that their memory is reused
 };
 

@@ -10,28 +10,28 @@
 namespace rad {
 
 struct ReadOptions {
-  bool commands = true;  // -Sc: whether lines '!command' may run in a shell; xform needs none
+  bool commands = true;  // -Sc: whether lines '!command' may run in a shell; xform does not need a shell
   Warn warn{};
-  FileAccess files{};  // those that scene files may name; the scene files themselves may be anywhere
+  FileAccess files{};  // files that scene files may name; the scene files themselves may be anywhere
 };
 
-// Limit on the nesting of files and commands, because a file that reads itself would never end.
+// Limit on the nesting of files and commands, because a file that includes itself would never end.
 inline constexpr int kDeepestNesting = 100;
 
-// Reads scene text into one description. The files are read in the given order, so a file may use the
-// modifiers of earlier ones. A name that begins with '!' is a command whose output is read. Names are used as
-// they are if such a file exists; otherwise they are searched along RAYPATH (see file_path.h), unless they
-// begin with '/', '.' or '~'.
+// Reads scene text into a description. Files are read in the given order, so a file may use the modifiers of
+// earlier ones. A name that begins with '!' is a command whose output is read. If a file with the given name
+// exists, it is read; otherwise the name is searched along RAYPATH (file_path.h), unless it begins with '/',
+// '.' or '~'.
 //
 // Commands. An xform command that names files and contains no shell syntax is executed in this process,
-// together with the commands in its files. Arguments keep all their digits, whereas the program xform would
-// round them to 12 digits, and absorption to 6. Its files are searched along RAYPATH, and commands in them
-// run in the directory of their file unless -c is given. Every other command runs in /bin/sh with an empty
-// standard input; its output must be scene text. Places in this text name the command and its line of output.
-// A command that ends with a status other than 0 (127 if the shell did not find it), or an xform that cannot
-// be executed, is an error in a scene file, whereas oconv(1) would continue without its surfaces. It is only
-// a warning, as in rtrace(1), if the command itself is given as a name, and in the scene files of an octree
-// that is not frozen. A file or command without primitives is a warning.
+// together with the commands in its files. Arguments keep all digits, whereas the program xform rounds them
+// to 12 digits, and absorption to 6. Its files are searched along RAYPATH, and commands in them run in the
+// directory of their file unless -c is given. Any other command runs in /bin/sh with empty standard input;
+// its output must be scene text, and places in it consist of the command and the line of output. If a command
+// in a scene file ends with a status other than 0 (127 if the shell does not find it), or an xform cannot be
+// executed, this is an error, whereas oconv(1) would continue without its surfaces. It is only a warning, as
+// in rtrace(1), for a command given instead of a file name, and in the scene files of an octree that is not
+// frozen. A file or command without primitives causes a warning.
 //
 // Throws Error with its place
 // - for a file that cannot be read, and for a command that cannot be started (Status::system);
@@ -42,20 +42,20 @@ inline constexpr int kDeepestNesting = 100;
 // integer arguments must be 0, because no type has any. Memory is in proportion to the text. Source: RADIANCE
 // reference manual, "Scene description"; oconv(1), xform(1).
 //
-// If only one name is given, it may be an octree, or a command that writes one. Octrees are recognized by
-// their contents and read by readOctree(). An empty file is an error if its name ends with ".oct", and so is
-// a command without output.
+// A single name may be an octree, or a command that writes one. Octrees are recognized by their contents and
+// read by readOctree(). An empty file is an error if its name ends with ".oct"; so is a command without
+// output.
 Description readScene(std::span<const std::string> names, const ReadOptions& options = {});
 
-// Reads an octree of oconv(1), frozen or not. name is searched along RAYPATH, as for the type instance. The
-// header and the bounds are kept; the cells are not. The scene files that the octree names are opened
-// relative to the current directory, and their commands are subject to the options. Throws Error with
-// Status::system if a file cannot be found or read, and with Status::input if the file is not an octree, or
-// is truncated, damaged or stale (octree_file.h). The real numbers of a frozen octree have a relative error
-// of at most 2^-31 against those of the text. Equal definitions of a modifier may have been merged.
+// Reads an octree of oconv(1), frozen or not. name is searched along RAYPATH, as for the type instance.
+// Header and bounds are stored, cells are not. The scene files named in the octree are opened relative to the
+// current directory, and their commands are subject to the options. Throws Error with Status::system if a
+// file cannot be found or read, and with Status::input if the file is not an octree, or is truncated, damaged
+// or stale (octree_file.h). Real numbers of a frozen octree differ from those of the text by a relative error
+// of at most 2^-31. Equal definitions of a modifier may have been merged.
 Description readOctree(const std::string& name, const ReadOptions& options = {});
 
-// readScene() for a text in memory. name: for messages.
+// readScene() for text in memory. name: for messages.
 Description readSceneText(std::string_view text, std::string_view name, const ReadOptions& options = {});
 
 }  // namespace rad

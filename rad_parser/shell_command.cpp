@@ -15,7 +15,7 @@ extern "C" char** environ;
 namespace rad {
 namespace {
 
-// What posix_spawn does in the child process, in this order.
+// Actions of posix_spawn in the child process, in this order.
 struct Actions {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
@@ -25,8 +25,8 @@ struct Actions {
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
     if (!directory.empty()) posix_spawn_file_actions_addchdir_np(&files, directory.c_str());
-    // If this program ignores SIGPIPE, so would its children, and a command whose output is no longer
-    // read would write for ever.
+    // If this program ignores SIGPIPE, its children would inherit that, and a command whose output is no
+    // longer read would continue writing forever.
     sigset_t broken;
     sigemptyset(&broken);
     sigaddset(&broken, SIGPIPE);

@@ -5,13 +5,13 @@
 
 namespace rad {
 
-// A command that runs in /bin/sh, in a given directory, and whose standard output is read. Its standard input
-// is empty, because the program's own contains the records to answer. Its standard error is that of the
-// program. The destructor kills a command that was not finished.
+// A command that runs in /bin/sh in a given directory, and whose standard output is read. Its standard input
+// is empty, because that of this program contains the records to be answered. It shares this program's
+// standard error. The destructor kills an unfinished command.
 class ShellCommand {
  public:
-  // directory: the directory in which the command runs; empty: the current one. Throws std::system_error if
-  // no process can be started.
+  // directory: in which the command runs; empty: the current one. Throws std::system_error if no process can
+  // be started.
   ShellCommand(const std::string& command, const std::string& directory);
   ~ShellCommand();
   ShellCommand(const ShellCommand&) = delete;
@@ -19,8 +19,8 @@ class ShellCommand {
 
   int output() const { return output_; }
 
-  // Waits until the command ends; call it after reading output(). Returns an empty string if the status is 0,
-  // otherwise how the command ended ("exit status 127").
+  // Waits until the command ends. REQUIRES that output() was read to its end. Returns an empty string if the
+  // status is 0, otherwise the way in which the command ended ("exit status 127").
   std::string finish();
 
  private:

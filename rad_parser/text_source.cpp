@@ -14,7 +14,7 @@
 namespace rad {
 namespace {
 
-// A block can hold the longest word, and is small enough for the second-level cache.
+// Block size: has room for the longest word, and fits into the second-level cache.
 constexpr size_t kTextBlock = 1 << 18;
 static_assert(kTextBlock > 2 * TextSource::kLongestWord);
 
@@ -43,7 +43,7 @@ TextSource::TextSource(int descriptor, uint32_t file, const DescriptionBuilder& 
 TextSource::TextSource(std::string_view text, uint32_t file, const DescriptionBuilder& builder)
     : file_(file), builder_(builder), next_(text.data()), end_(text.data() + text.size()) {}
 
-// Moves the text from keep on to the front of the block and reads more text behind it. At the end of the
+// Moves the text starting at keep to the front of the block and appends newly read text. At the end of the
 // text, returns false and moves nothing.
 bool TextSource::refill(const char*& keep) {
   if (descriptor_ < 0) return false;
@@ -88,7 +88,7 @@ void TextSource::skipLine() {
 std::string TextSource::line() {
   constexpr size_t kLongestLine = 1 << 20;
   std::string text;
-  bool sawReturn = false;  // "\r" ends the line; a "\n" behind it is part of the same line end
+  bool sawReturn = false;  // "\r" ends the line; a following "\n" is part of the same line end
   for (;;) {
     if (next_ == end_) {
       const char* keep = next_;
@@ -137,7 +137,7 @@ bool TextSource::word(std::string_view& word) {
   }
 }
 
-// Reads the rest of a word with a quote, which is at next_. The word begins at start.
+// Reads the rest of a word from the quote at next_. The word begins at start.
 bool TextSource::quotedWord(std::string_view& word, const char* start) {
   unquoted_.assign(start, next_);
   char open = '\0';
@@ -170,7 +170,7 @@ bool TextSource::quotedWord(std::string_view& word, const char* start) {
 }
 
 bool TextSource::real(double& value) {
-  // Almost every number ends within the block. It can then be read without a search for its end.
+  // Almost every number ends within the block. It can be read without first searching for its end.
   if (peek() >= 0) {
     const char* digits = next_ + (*next_ == '+');
     const char* first = digits + (digits == next_ && *digits == '-');

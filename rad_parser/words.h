@@ -7,16 +7,16 @@
 
 namespace rad {
 
-// Numbers distinct words. The words are appended to a list of the caller, which must be empty at first. The
-// table is an open-addressing hash table of 8 bytes a slot. Words are never removed. Memory is in
-// proportion to the number of words.
+// Numbers distinct words. They are appended to the caller's list, which must be empty at first, and are never
+// removed. This is an open-addressing hash table with 8 bytes a slot. Memory is in proportion to the number
+// of words.
 class WordTable {
  public:
   static constexpr uint32_t kNone = 0xffffffff;
 
   explicit WordTable(std::deque<std::string>& words);
 
-  // The index of the word in the list, to which it is appended if it is new.
+  // The index of a word in the list; a new word is appended.
   uint32_t intern(std::string_view word);
 
   // The index of the word, or kNone.
@@ -25,7 +25,7 @@ class WordTable {
  private:
   struct Slot {
     uint32_t word = kNone;
-    uint32_t hash = 0;  // compared first, so that a probe rarely accesses the words
+    uint32_t hash = 0;  // compared before the words, which are therefore rarely accessed
   };
 
   uint32_t add(std::string_view word);
@@ -33,7 +33,7 @@ class WordTable {
   void grow();
 
   std::deque<std::string>& words_;
-  std::vector<Slot> slots_;  // the number of slots is a power of two; at most half are used
+  std::vector<Slot> slots_;  // their number is a power of two; at most half of them are used
   size_t interned_ = 0;      // number of slots in use
 };
 

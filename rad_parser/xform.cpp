@@ -32,7 +32,7 @@ Similarity power(Similarity base, int64_t exponent) {
   return result;
 }
 
-// The transform at the front of the words, other than -i. Empty if they do not begin with one.
+// The transform at the beginning of the words, other than -i. Empty if they begin with none.
 std::optional<Similarity> readStep(std::span<const std::string_view> words, size_t& used) {
   const std::string_view option = words[0];
   double n[3];
@@ -64,7 +64,7 @@ std::optional<Similarity> readStep(std::span<const std::string_view> words, size
   return step;
 }
 
-// "a>b" becomes "prefix.a>prefix.b". Mist lists surfaces in the order in which the light meets them.
+// Converts "a>b" to "prefix.a>prefix.b". Mist lists surfaces in the order in which light hits them.
 std::string prefixSources(std::string_view path, const std::string& prefix) {
   std::string result;
   while (!path.empty()) {
@@ -92,7 +92,7 @@ class ArgumentTransform {
   }
 
  private:
-  // Transforms the arguments, as their meaning requires. Returns whether numbers have changed.
+  // Transforms the arguments according to their meaning. Returns whether numbers have changed.
   bool arguments() {
     switch (p_.type) {
       case Type::source:
@@ -159,8 +159,8 @@ class ArgumentTransform {
         turnVector(3);
         turnVector(6);
         return true;
-      // Their function file, data, picture, octree or mesh is transformed, by xform options behind the string
-      // arguments.
+      // For these types, the function file, data, picture, octree or mesh is transformed, by xform options
+      // after the string arguments.
       case Type::instance:
       case Type::mesh:
       case Type::texfunc:
@@ -194,7 +194,7 @@ class ArgumentTransform {
       case Type::mixpict:
         for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
         return false;
-      // These have no lengths, places or directions.
+      // These types have no lengths, places or directions.
       case Type::light:
       case Type::illum:
       case Type::mirror:
@@ -245,7 +245,7 @@ class ArgumentTransform {
   void movePoint(size_t i) { set(i, transform_.similarity.point(at(i))); }
   void turnVector(size_t i, double sign = 1) { set(i, transform_.similarity.vector(at(i)) * sign); }
   void scaleLength(size_t i) { reals_[i] *= length_; }
-  // Three values of transmission per unit of length.
+  // Three values of transmission per unit length.
   void absorb(size_t i) {
     for (size_t k = i; k < i + 3; ++k) reals_[k] = std::pow(reals_[k], 1 / length_);
   }
@@ -274,8 +274,8 @@ V3d Similarity::vector(const V3d& v) const {
 }
 
 Similarity Similarity::inverse() const {
-  // The linear part is the scale times an orthogonal matrix. Its inverse is therefore its transpose, divided
-  // by the square of the scale.
+  // The linear part is the scale times an orthogonal matrix, so its inverse is its transpose divided by the
+  // square of the scale.
   Similarity result;
   result.scale = 1 / scale;
   const double factor = 1 / (scale * scale);

@@ -15,8 +15,8 @@ namespace {
 
 XformFault fault(std::string_view text) { return XformFault(fmt::format("xform: {}", text)); }
 
-// The words of one line of an argument file. As in xform, quotes and a backslash are special only at
-// the beginning of a word.
+// The words of one line of an argument file. As in xform, quotes and backslashes are special only at the
+// beginning of a word.
 std::vector<std::string> argumentWords(std::string_view line) {
   constexpr std::string_view kSpace = " \t\n\v\f\r";
   if (line.starts_with('!')) line.remove_prefix(1);
@@ -116,7 +116,7 @@ class Passes {
     const auto count = at + 1 < words.size() ? parseInteger(words[at + 1]) : std::nullopt;
     if (!count || *count <= 0) throw fault("missing count for -a");
     copiesOfArrays(words);
-    // If a command has several names (-n), each of them becomes the last one with the element's number.
+    // If a command has several names (-n), each is replaced by the last one with the element's number.
     std::optional<std::string> name;
     for (size_t i = 1; i + 1 < words.size(); ++i)
       if (words[i] == "-n") name = words[i + 1];
@@ -157,7 +157,7 @@ class Passes {
     t.similarity = readTransform(rest, used);
     t.reversed = (t.similarity.scale < 0) != t.inverted;
     if (used > 0 && rest[0] != "-i")
-      t.arguments = {"-i", "1"};  // ends an -i among the primitive's own arguments
+      t.arguments = {"-i", "1"};  // terminates an -i among the primitive's own arguments
     t.arguments.insert(t.arguments.end(), rest.begin(), rest.begin() + used);
     if (used < rest.size() && rest[used].starts_with('-'))
       throw fault(fmt::format("bad option or argument at \"{}\"", printable(rest[used])));
@@ -184,8 +184,8 @@ std::optional<std::vector<std::string>> plainWords(std::string_view command) {
     if (c == '\\' && i + 1 < command.size() && command[i + 1] == '\n') {
       ++i;
     } else if (c == ' ' || c == '\t' || c == '\n' || (c == '#' && !inWord)) {
-      // To a shell, a line end that is not escaped would begin another command, but
-      // command lines contain none.
+      // In a shell, a line end that is not escaped would begin another command, but command lines do not
+      // contain any.
       if (inWord) words.push_back(word);
       word.clear();
       inWord = false;

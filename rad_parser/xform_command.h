@@ -13,45 +13,47 @@
 
 namespace rad {
 
-// The words of a command, if a shell would pass them on unchanged: the command contains none
-// of |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if
-// the command needs a shell.
+// The words of a command, if a shell would pass them unchanged: the command contains none of
+// |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if the command needs a
+// shell.
 std::optional<std::vector<std::string>> plainWords(std::string_view command);
 
 // One pass of xform over its files.
 struct XformPass {
   Transform transform;
-  std::vector<std::string> files;  // as named
-  bool changesDirectory = true;    // commands in the files run in the files' directories (not with -c)
+  std::vector<std::string> files;  // as given
+  bool changesDirectory = true;    // whether commands in the files run in the directories of the files
+                                   // (without -c)
 };
 
-// A fault of an xform command. what() begins with "xform: ". The caller adds the place of the command.
+// An error of an xform command. what() begins with "xform: ". The caller adds the place of the command.
 class XformFault : public Error {
  public:
   using Error::Error;
 };
 
-// Calls `pass` for each pass that an xform command makes, in order: one pass, or one for each element of its
-// arrays (-a) and for each line of its argument files (-f). words: the command's, "xform" first. directory:
-// the directory that names of argument files are relative to. Throws XformFault
+// Calls `pass` for each pass of an xform command, in order: there is one pass, or one for each element of its
+// arrays (-a) and each line of its argument files (-f). words: of the command, beginning with "xform".
+// directory: names of argument files are relative to it. Throws XformFault
 //   - for errors that xform(1) reports,
-//   - for standard input in place of a file ("-f -", or no file named),
+//   - for standard input instead of a file ("-f -", or no file named),
 //   - for argument files that `access` does not allow,
-//   - for more than kMostPasses passes, before the first of an array with more.
-// Exceptions of `pass` are passed on.
+//   - for more than kMostPasses passes; if an array has that many, before its first pass.
+// Exceptions thrown by `pass` are passed on.
 void forEachPass(std::span<const std::string> words, const std::string& directory, const FileAccess& access,
                  const std::function<void(const XformPass&)>& pass);
 
-// Limit on the passes of a command and of a scene. Each reads its files again: more would take many minutes,
-// and gigabytes even where a file has one surface.
+// Limit on the passes of a command and of a scene. Each pass reads its files again, so that more passes would
+// take many minutes, and gigabytes even if a file has only one surface.
 inline constexpr int64_t kMostPasses = 10'000'000;
 
-// The fault of more.
+// The error if there are more passes.
 XformFault tooMany();
 
-// The number of copies that the arrays (-a) of a command make of its files: the product of their counts.
-// Counts that forEachPass() refuses are left out. Throws XformFault if the product times `outside`, the
-// copies that the commands around it make of this command, is above kMostPasses: before anything is copied.
+// The number of copies of its files that the arrays (-a) of a command make: the product of their counts.
+// Counts that forEachPass() rejects are ignored. Throws XformFault, before anything is copied, if the product
+// times `outside` is above kMostPasses. outside: number of copies of this command that enclosing commands
+// make.
 int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside = 1);
 
 }  // namespace rad

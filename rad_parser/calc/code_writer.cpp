@@ -9,7 +9,7 @@
 
 namespace rad::calc {
 
-// Nodes of a block are written in the order of their creation, in which operands come before their users.
+// Writes the nodes of a block in the order of their creation, in which operands precede their users.
 class CodeWriter {
  public:
   explicit CodeWriter(Expansion expansion) : frames_(std::move(expansion.frames)) {
@@ -18,7 +18,7 @@ class CodeWriter {
   }
 
   std::shared_ptr<const Program> write() {
-    emit(Op::fail);  // at 0, where no jump leads
+    emit(Op::fail);  // at 0, which is never the target of a jump
     program_->frames_.resize(frames_.size());
     for (size_t i = 0; i < frames_.size(); ++i) writeFrame(i);
     summarize();
@@ -29,10 +29,10 @@ class CodeWriter {
   using Instruction = Program::Instruction;
   static constexpr uint32_t kRoot = Layout::kRoot;
 
-  struct Postponed {  // a block that is written behind the frame's root
+  struct Postponed {  // a block that is written after the frame's root
     uint32_t block;
     Id result;
-    uint32_t patch;  // which entry its beginning is written to: of cellStarts_ for a cell, else of lists_
+    uint32_t patch;  // index of the entry for its start: in cellStarts_ for a cell, otherwise in lists_
     bool isCell;
   };
 
@@ -75,7 +75,7 @@ class CodeWriter {
     writePostponed();
   }
 
-  // Reserves the frame's constants and cells in the program.
+  // Reserves constants and cells of the frame in the program.
   void reserve(Program::Frame& out) {
     std::vector<double>& constants = program_->constants_;
     out.firstConstant = static_cast<uint32_t>(constants.size());
@@ -93,7 +93,7 @@ class CodeWriter {
     }
   }
 
-  // Writing a postponed block may postpone further ones.
+  // Writing a postponed block may postpone more blocks.
   void writePostponed() {
     for (size_t i = 0; i < postponed_.size(); ++i) {
       const Postponed p = postponed_[i];
@@ -108,7 +108,7 @@ class CodeWriter {
     for (Id id : layout_.blocks[block].nodes) writeNode(id, block);
   }
 
-  // Makes sure that a node's register holds its value when the code of the block continues.
+  // Ensures that a node's register holds its value when the code of the block continues.
   void ensure(Id id, uint32_t block) {
     if (!placed(id).isCell && node(id).op != Op::parameter) return;
     if (isEnsured(id, block)) return;
@@ -214,8 +214,8 @@ class CodeWriter {
     emit(Op::host, reg(id), n.a, list, static_cast<uint32_t>(n.list.size()));
   }
 
-  // Three entries for each argument: its register, the code that computes it (kDone if none is needed), and
-  // its cell in the caller's frame (kNoCell if it has none).
+  // Writes three entries for each argument: its register, the code that computes it (kDone if none is
+  // needed), and its cell in the caller's frame (kNoCell if there is none).
   void writeCall(Id id, uint32_t block) {
     const Node& n = node(id);
     for (Id operand : n.list) {
@@ -241,7 +241,7 @@ class CodeWriter {
     emit(Op::call, reg(id), n.a, list);
   }
 
-  // Records the inputs that the code may read, and whether its values depend on anything at all.
+  // Records the inputs that the code may read, and whether its values are constant.
   void summarize() {
     program_->constant_ = true;
     for (const Instruction& i : program_->code_) {
@@ -257,10 +257,10 @@ class CodeWriter {
   std::shared_ptr<Program> program_ = std::make_shared<Program>();
   std::unordered_map<Id, std::pair<uint32_t, uint32_t>> globals_;  // of the first frame: cell and register
 
-  // Of the frame that is being written.
+  // Of the frame being written:
   const Graph* graph_ = nullptr;
   Layout layout_;
-  std::vector<std::vector<Id>> ensured_;  // by block: cells and parameters that the code has forced by then
+  std::vector<std::vector<Id>> ensured_;  // by block: cells and parameters that its code has evaluated
   std::vector<Postponed> postponed_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace rad::calc {
 
-// The code of expanded expressions: the second step of making a program. Throws the Error of an operation
-// Op::fail that every evaluation would reach.
+// Writes the code of expanded expressions: the second step of making a program. Throws the Error of an
+// operation Op::fail if every evaluation would reach it.
 std::shared_ptr<const Program> writeProgram(Expansion expansion);
 
 }  // namespace rad::calc

@@ -17,17 +17,17 @@ namespace {
 
 using Kind = Syntax::Kind;
 
-// Limit on the recursion of the compiler through trees, arguments and definitions, since the stack is finite.
+// Limit on the compiler's recursion through trees, arguments and definitions, because the stack is finite.
 constexpr int kMaxCompileDepth = 2500;
-// Limit on the expansions of a function within its own expansion.
+// Limit on the expansions of a function within itself.
 constexpr int kMaxUnrolled = 64;
-// Limit on the expansions in one program. Beyond it, functions are called instead.
+// Limit on the expansions in one program. Beyond this limit, functions are called instead.
 constexpr size_t kMaxExpansions = 20000;
 
 struct Scope;
 
-// An argument of a call. It is a tree that is compiled when the body first uses it, a node that has been
-// compiled, or, in a frame made for a certain function as argument, that function's symbol.
+// An argument of a call: a tree that is compiled at its first use in the body; a compiled node; or, in a
+// frame for given functions as arguments, the symbol of such a function.
 struct Argument {
   const Syntax* tree = nullptr;
   const Scope* scope = nullptr;  // of the tree
@@ -39,7 +39,7 @@ struct Argument {
 // that definition's parameters.
 struct Scope {
   const Definition* definition = nullptr;  // null: the primitive's own expressions
-  const Scope* caller = nullptr;           // of the call that is replaced by the definition's body
+  const Scope* caller = nullptr;           // scope of the call that the definition's body replaces
   mutable std::vector<Argument> arguments;
   FrameGraph* frame = nullptr;
 };
@@ -95,7 +95,7 @@ class Expander {
                                        : input_.place;
   }
 
-  // The primitive, which lacks something, and the definition that asks for it.
+  // The place of the primitive with a missing item, and of the definition that requires it.
   std::string placeInPrimitive(const Syntax& tree, const Scope& scope) const {
     return scope.definition != nullptr ? fmt::format("{}: {}", input_.place, place(tree, scope))
                                        : input_.place;
@@ -106,8 +106,8 @@ class Expander {
     return static_cast<uint32_t>(out_.messages.size() - 1);
   }
 
-  // An operation that throws the error when it is evaluated. As in RADIANCE, an expression that is
-  // never needed may be wrong.
+  // An operation that throws the error when it is evaluated. As in RADIANCE, an expression that is never
+  // evaluated may contain errors.
   Id fail(const Syntax& tree, const Scope& scope, std::string_view problem) {
     return scope.frame->graph.leaf(Op::fail, message(fmt::format("{}: {}", place(tree, scope), problem)));
   }
@@ -151,8 +151,8 @@ class Expander {
       case Kind::power: {
         const Id base = compile(tree.args[0], scope);
         const Id exponent = compile(tree.args[1], scope);
-        // RADIANCE's rule for a base that is written as the number 0 with a variable exponent: the result is
-        // 0 even if the exponent happens to be 0.
+        // RADIANCE's rule if the base is written as the number 0 and the exponent is variable: the result is
+        // 0 even if the exponent is 0.
         if (tree.args[0].kind == Kind::number && tree.args[0].number == 0 && !graph.isConstant(exponent))
           return base;
         return graph.operate(Op::power, base, exponent);
@@ -191,8 +191,8 @@ class Expander {
     }
     const Id id = variables_[s.definition];
     if (scope.frame == &first()) return id;
-    // Other frames may run many times for one point. Variables do not depend on a frame's arguments, so they
-    // are evaluated once, in the first frame.
+    // Other frames may run many times for one point. Because variables do not depend on a frame's arguments,
+    // they are evaluated once, in the first frame.
     const Node& n = first().graph[id];
     if (n.op == Op::constant) return scope.frame->graph.constant(n.value);
     if (n.op == Op::input) return scope.frame->graph.leaf(Op::input, n.a);
@@ -205,7 +205,7 @@ class Expander {
       const std::string name = scope.definition != nullptr ? scope.definition->name : "expression";
       return fail(tree, scope, fmt::format("{}(): too few arguments", name));
     }
-    // A copy, because compiling the tree may reach the same argument again and change it.
+    // A copy, because compiling the tree may reach and change the same argument.
     const Argument given = scope.arguments[index];
     if (given.node != kNone) return given.node;
     if (given.tree == nullptr) {
@@ -217,8 +217,8 @@ class Expander {
     return id;
   }
 
-  // The symbol of the function that a callee or an argument names. If it names none,
-  // returns -1 and the problem.
+  // The symbol of the function named by a callee or an argument. If it names no function, returns -1 and the
+  // problem.
   int function(const Syntax& tree, const Scope& scope, std::string& problem) const {
     const Syntax* t = &tree;
     const Scope* s = &scope;
@@ -261,8 +261,8 @@ class Expander {
     return compile(d.body, *inner);
   }
 
-  // Whether the body of d replaces the call: if d is not being expanded already, or if some argument is a
-  // constant that differs from its values in all the enclosing expansions of d.
+  // Whether a call is replaced by the body of d: if d is not already being expanded, or if an argument is a
+  // constant that differs from its values in all enclosing expansions of d.
   bool mayExpand(const Definition& d, const Scope& inner) {
     int active = 0;
     std::vector<bool> isNew;
@@ -280,8 +280,8 @@ class Expander {
       for (size_t i = 0; i < isNew.size(); ++i) {
         if (!isNew[i]) continue;
         const Id before = i < s->arguments.size() ? s->arguments[i].node : kNone;
-        // If the argument of the enclosing call is not a constant, or has not been compiled, the recursion
-        // cannot be shown to end.
+        // If the argument of the enclosing call is not constant, or not yet compiled, the recursion may be
+        // endless.
         isNew[i] =
             before != kNone && inner.frame->graph.isConstant(before) && before != inner.arguments[i].node;
       }
@@ -299,7 +299,7 @@ class Expander {
     return index >= 0 && callable(symbol(index));
   }
 
-  // A call of the frame that is compiled for d and for the functions among the arguments.
+  // A call of the frame for d and for those of its arguments that are functions.
   Id frameCall(const Syntax& tree, Scope& inner, const Definition& d) {
     std::string key = fmt::format("{}", static_cast<const void*>(&d));
     std::vector<int> functions;
@@ -331,13 +331,13 @@ class Expander {
     n.a = index;
     for (size_t i = 0; i < d.parameters.size(); ++i) {
       const bool isValue = i < inner.arguments.size() && functions[i] < 0;
-      // The frame does not read the parameters of missing arguments and of functions.
+      // The frame does not read parameters whose arguments are missing or are functions.
       n.list.push_back(isValue ? argument(tree, inner, i) : inner.frame->graph.constant(0));
     }
     return inner.frame->graph.add(std::move(n));
   }
 
-  // The given argument of a library call, from 1.
+  // Argument number n (from 1) of a library call.
   Id argumentOf(const Syntax& call, const Scope& scope, const LibraryFunction& f, size_t n) {
     return n < call.args.size() ? compile(call.args[n], scope)
                                 : fail(call, scope, fmt::format("{}(): too few arguments", f.name));
@@ -353,7 +353,7 @@ class Expander {
         return selectCall(tree, scope, f);
       case Op::min:
       case Op::max: {
-        // The order of comparisons is RADIANCE's. It matters if a value is not a number.
+        // The comparisons are in RADIANCE's order, which matters if a value is NaN.
         Id extreme = value(1);
         for (size_t k = tree.args.size() - 1; k > 1; --k) extreme = graph.operate(f.op, extreme, value(k));
         return graph.operate(Op::finite, extreme);
@@ -405,7 +405,7 @@ class Expander {
     return graph.add(std::move(n));
   }
 
-  // noise3 and the backward differences noise3x, noise3y, noise3z.
+  // noise3, and its backward differences noise3x, noise3y and noise3z.
   Id noiseCall(const Syntax& tree, const Scope& scope, const LibraryFunction& f) {
     Graph& graph = scope.frame->graph;
     const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
@@ -439,7 +439,7 @@ class Expander {
     return graph.add(std::move(n));
   }
 
-  // One message for each place, so that equal operations become the same node.
+  // Uses the same message for the same place, so that equal operations become the same node.
   uint32_t realArgumentMessage(const std::string& place) {
     auto [it, isNew] = realArgumentMessages_.try_emplace(place, 0);
     if (isNew) it->second = message(place);
@@ -463,9 +463,9 @@ class Expander {
 
   const CompileInput& input_;
   Expansion out_;
-  std::deque<Scope> scopes_;                             // never moved: arguments point at them
+  std::deque<Scope> scopes_;                             // never moved, because arguments point to them
   std::unordered_map<const Definition*, Id> variables_;  // kNone while a variable is being compiled
-  std::map<std::string, uint32_t> instances_;  // frames, by definition and functions among the arguments
+  std::map<std::string, uint32_t> instances_;  // frames by definition and by functions among the arguments
   std::map<std::string, uint32_t> realArgumentMessages_;  // by place
   size_t expansions_ = 0;
   int depth_ = 0;

@@ -11,17 +11,17 @@
 #include "rad_parser/calc/program.h"
 #include "rad_parser/calc/syntax.h"
 
-// From trees, whose names have been bound to symbols, to graphs: the first step of making a program. The
-// second is writeProgram() (code_writer.h).
+// Converts syntax trees, whose names are bound to symbols, to graphs: the first step of making a program. The
+// second step is writeProgram() (code_writer.h).
 //
 // Function files consist of many small definitions that refer to each other. Therefore every call is replaced
 // by the body of the function, and a parameter by the node of its argument. A recursive call is expanded as
 // long as some argument is a new constant each time, as in the octaves of turbulence; otherwise it becomes a
-// call of a frame, which is compiled separately. An argument that is a function is known by its name, so a
-// frame is compiled for the functions that it is given.
+// call of a frame, which is compiled separately. An argument that is a function is known by its name, so each
+// combination of such arguments has a separate frame.
 namespace rad::calc {
 
-// A name in its context. It may be referred to before it is defined, or without ever being defined.
+// A name in its context. It may be used before its definition, or without any definition.
 struct Symbol {
   std::string name;  // qualified: "mod", "mod`woodpat"
   const Definition* definition = nullptr;
@@ -30,11 +30,11 @@ struct Symbol {
 };
 
 struct CompileInput {
-  std::span<const Symbol> symbols;  // Syntax::index of a name is an index of these
-  size_t inputs = 0;                // number of the renderer's variables: $1 .. $inputs
-  uint64_t available = ~0ull;       // bit i: $(i+1) has a value here; other variables are undefined
-  bool hasHosts = true;             // false: the renderer's functions are undefined
-  std::optional<std::span<const double>> reals;  // the values of arg(n), if they are known already
+  std::span<const Symbol> symbols;               // indexed by Syntax::index of names
+  size_t inputs = 0;                             // number of the renderer's variables: $1 .. $inputs
+  uint64_t available = ~0ull;                    // bit i: $(i+1) has a value here; other inputs are undefined
+  bool hasHosts = true;                          // false: the renderer's functions are undefined
+  std::optional<std::span<const double>> reals;  // values of arg(n), if they are already known
   std::string place;                             // of the expressions, for messages
 };
 
@@ -44,9 +44,9 @@ struct Expansion {
   std::vector<HostFunction> hosts;  // those that are called
 };
 
-// The graphs of bound expressions. The trees must outlive the call only. An expression that cannot be
-// evaluated, such as an undefined variable, becomes the operation Op::fail. Throws Error if
-// definitions are nested too deeply.
+// The graphs of bound expressions. The trees may be destroyed after the call. An expression that cannot be
+// evaluated, such as an undefined variable, becomes the operation Op::fail. Throws Error if definitions are
+// nested too deeply.
 Expansion expandExpressions(const CompileInput& input, std::span<const Syntax> expressions);
 
 // The graphs of symbol(Point::arguments[0], .. [count-1]).

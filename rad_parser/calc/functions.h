@@ -5,15 +5,15 @@
 
 namespace rad::calc {
 
-// A function that the language itself provides. `arity` is the number of arguments that it needs. Further
-// arguments are ignored, except by min, max and select, which take any number.
+// A built-in function of the language. `arity`: number of arguments that it needs. Further arguments are
+// ignored, except by min, max and select, which take any number.
 struct LibraryFunction {
   std::string_view name;
   Op op;
   int arity;
 };
 
-// The library function of this name, or null.
+// The built-in function of this name, or null.
 const LibraryFunction* findLibraryFunction(std::string_view name);
 
 // The operation of one of the operators + - * /.

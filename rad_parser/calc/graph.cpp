@@ -7,7 +7,7 @@
 namespace rad::calc {
 namespace {
 
-constexpr uint32_t kMostCost = 1u << 20;  // costs are capped here, so that sums do not overflow
+constexpr uint32_t kMostCost = 1u << 20;  // cap on costs, so that sums do not overflow
 
 uint32_t ownCost(Op op) {
   switch (op) {
@@ -137,7 +137,7 @@ Id Graph::operate(Op op, Id a, Id b, Id c) {
       if (a > b) std::swap(a, b);
       break;
     case Op::divide:
-      // RADIANCE also multiplies by the reciprocal of a constant divisor. The result may differ from the
+      // Like RADIANCE, multiplies by the reciprocal of a constant divisor. The result may differ from the
       // quotient by one rounding.
       if (isConstant(b) && std::isnormal(1 / nodes_[b].value)) {
         return operate(Op::multiply, a, constant(1 / nodes_[b].value));
@@ -167,7 +167,7 @@ Id Graph::product(Id a, int times) {
 }
 
 // Small integer powers are computed by multiplication. The result differs from pow() by at most as many
-// roundings as the exponent, and is zero where it is not finite, as the result of Op::power is.
+// roundings as the exponent. As in Op::power, it is zero if it is not finite.
 Id Graph::raise(Id a, Id b) {
   if (isConstant(b)) {
     const double e = nodes_[b].value;
@@ -184,7 +184,7 @@ Id Graph::raise(Id a, Id b) {
   return add(std::move(n));
 }
 
-// Fills in the members of a node that follow from its operands.
+// Sets the members of a node that depend on its operands.
 void Graph::weigh(Node& n) const {
   n.cost = ownCost(n.op);
   n.mayFail = n.op == Op::fail || n.op == Op::call || n.op == Op::host || n.op == Op::realArgument ||

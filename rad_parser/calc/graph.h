@@ -7,28 +7,28 @@
 
 #include "rad_parser/calc/program.h"
 
-// Expressions as graphs of operations, between the trees of syntax.h and the code of program.h. For expand.h,
-// which makes graphs, and layout.h and code_writer.h, which turn them into programs.
+// Expressions as graphs of operations, between the syntax trees (syntax.h) and the code (program.h). Graphs
+// are made by expand.h, and turned into programs by layout.h and code_writer.h.
 namespace rad::calc {
 
 // Index of a node in its graph.
 using Id = uint32_t;
 inline constexpr Id kNone = 0xffffffff;
 
-// An operation and its operands. Nodes with equal members op, a, b, c, value and list are the same node.
+// An operation and its operands. Nodes that agree in op, a, b, c, value and list are the same node.
 struct Node {
   Op op = Op::constant;
-  // The first directOperands(op) of these are operands. In other operations `a` is the index of an input, an
-  // argument, a parameter, a message, a frame, a host function or a node of the first frame (global);
-  // realArgument has its message in `b`.
+  // The first directOperands(op) of these are operands. For other operations, `a` is the index of an input,
+  // an argument, a parameter, a message, a frame, a host function or a node of the first frame (global). For
+  // realArgument, `b` is the index of its message.
   uint32_t a = 0, b = 0, c = 0;
   double value = 0;  // constant
-  // Operands of host and call. select: its index, the number of its choices as a node, the choices.
+  // host, call: operands. select: its index, the number of its choices as a node, then the choices.
   std::vector<Id> list;
 
-  uint32_t cost = 0;  // of this operation and all its operands as if no node were shared; unit: an addition
-  bool mayFail = false;   // evaluating it can throw an error or recur without end
-  bool isFinite = false;  // its value is finite at every point
+  uint32_t cost = 0;  // of this operation and all its operands as if no node were shared; unit: one addition
+  bool mayFail = false;   // whether evaluation may throw an error or recurse endlessly
+  bool isFinite = false;  // whether its value is finite at every point
 
   bool operator==(const Node& n) const {
     return op == n.op && a == n.a && b == n.b && c == n.c &&
@@ -36,7 +36,7 @@ struct Node {
   }
 };
 
-// How many of Node::a, b and c are operands: 0 to 3.
+// The number of operands among Node::a, b and c: 0 to 3.
 int directOperands(Op op);
 
 // The operations of one frame. Each occurs once; operands come before the operations that use them.
@@ -45,7 +45,7 @@ class Graph {
   const Node& operator[](Id id) const { return nodes_[id]; }
   size_t size() const { return nodes_.size(); }
 
-  // The node that equals n; appended if there is none yet.
+  // The node that equals n; it is appended if it does not exist.
   Id add(Node n);
 
   Id constant(double value);
@@ -53,8 +53,8 @@ class Graph {
   bool isConstant(Id id) const { return nodes_[id].op == Op::constant; }
   bool isConstant(Id id, double value) const { return isConstant(id) && nodes_[id].value == value; }
 
-  // An operator or function of one to three arguments, simplified. Operations on constants are evaluated
-  // unless they fault: a fault must be reported each time that the program runs.
+  // An operation with one to three operands, simplified. Operations on constants are evaluated, unless this
+  // causes a fault: faults must be reported whenever the program runs.
   Id operate(Op op, Id a, Id b = kNone, Id c = kNone);
 
  private:
@@ -73,7 +73,7 @@ struct FrameGraph {
   std::string name;  // for messages
   uint32_t parameters = 0;
   std::vector<Id> results;
-  std::vector<Id> globals;  // nodes of the first frame that other frames refer to
+  std::vector<Id> globals;  // nodes of the first frame that are used in other frames
 };
 
 }  // namespace rad::calc

@@ -5,7 +5,7 @@
 namespace rad::calc {
 namespace {
 
-// A node of at most this cost is computed even if no use is certain. Unit: an addition.
+// Nodes up to this cost are computed even if no use is certain. Unit: one addition.
 constexpr uint32_t kCheap = 8;
 
 bool isPostponed(const Node& n) { return n.cost > kCheap || n.mayFail; }
@@ -31,7 +31,7 @@ class Planner {
     return index;
   }
 
-  // The innermost block that contains both.
+  // The innermost block that contains both blocks.
   uint32_t common(uint32_t a, uint32_t b) const {
     while (a != b) {
       if (out_.blocks[a].depth >= out_.blocks[b].depth) {
@@ -55,7 +55,7 @@ class Planner {
     p.block = shared;
   }
 
-  // Goes from the users to the operands, so that all uses of a node are known when it is placed.
+  // Proceeds from users to operands, so that all uses of a node are known before it is placed.
   void placeNodes() {
     newBlock(kNone, true);
     for (Id id : frame_.results) use(id, Layout::kRoot);
@@ -139,7 +139,7 @@ class Planner {
 
   const FrameGraph& frame_;
   const Graph& graph_;
-  std::vector<bool> hasCertainUse_;  // by Id: some use is in the very block that contains all uses
+  std::vector<bool> hasCertainUse_;  // by Id: whether the block that contains all uses itself uses it
   Layout out_;
 };
 

@@ -44,8 +44,8 @@ struct Library::Tables {
   std::map<std::string, std::shared_ptr<const Program>> programs;  // by keyOf()
   bool begun = false;
 
-  // A program that was returned keeps the definitions that it was compiled with. Later requests must not get
-  // it if they mean others.
+  // Programs that were returned keep the definitions with which they were compiled. They must not be returned
+  // again if definitions have changed.
   void addAll(std::string_view text, std::string_view file, const std::string& context) {
     for (Definition& d : parseDefinitions(text, file))
       if (symbols.define(std::move(d), context)) programs.clear();
@@ -70,7 +70,7 @@ struct Library::Tables {
     begun = true;
   }
 
-  // place: for the message if the file cannot be read, "room.rad:3: "; may be empty.
+  // place: prefix of the message if the file cannot be read, such as "room.rad:3: "; may be empty.
   SourceText need(std::string_view file, std::string_view place) const {
     try {
       if (std::optional<SourceText> source = load(file)) return std::move(*source);
@@ -82,7 +82,7 @@ struct Library::Tables {
                 Status::system);
   }
 
-  // Loads the file of a request unless that was done before, and returns its context.
+  // Loads the file of a request unless it is already loaded, and returns its context.
   std::string enter(const Request& request) {
     begin();
     const std::string context = contextOf(request.file);

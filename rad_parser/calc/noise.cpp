@@ -21,15 +21,15 @@ constexpr std::array<uint8_t, 256> kPermutation = {
     181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,
     222, 114, 67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
 
-// Repeated once, so that the sum of an entry and a coordinate can be used as an index without reduction.
+// Repeated twice, so that sums of an entry and a coordinate can be used as indices without reduction.
 constexpr std::array<uint8_t, 512> kTwice = [] {
   std::array<uint8_t, 512> twice{};
   for (size_t i = 0; i < twice.size(); ++i) twice[i] = kPermutation[i & 255];
   return twice;
 }();
 
-// The directions from the centre of a cube to the midpoints of its 12 edges. Four of them
-// occur twice, to make 16.
+// The directions from the centre of a cube to the midpoints of its 12 edges. Four of them are repeated to
+// make 16.
 struct Gradient {
   double x, y, z;
 };
@@ -58,7 +58,7 @@ double ramp(uint8_t hash, double x, double y, double z) {
 double smooth(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 double blend(double t, double a, double b) { return a + t * (b - a); }
 
-// A pseudo-random number in [-1,1]. The arithmetic is modulo 2^64 on purpose.
+// A pseudo-random number in [-1,1]. Arithmetic modulo 2^64 is intended.
 double latticeRandom(int64_t seed) {
   uint64_t s = static_cast<uint64_t>(seed);
   s ^= s << 13;
@@ -103,7 +103,7 @@ double noise3(double x, double y, double z) {
 
 double fractalNoise3(double x, double y, double z) {
   constexpr int64_t units = 2000;  // lattice points per unit length; their spacing is kNoiseStep
-  // The seed of a lattice point is linear in its coordinates. It is therefore enough to keep track of seeds.
+  // The seed of a lattice point is linear in its coordinates, so only seeds need to be tracked.
   constexpr std::array<int64_t, 3> kSeeds = {17, 23, 29};
   const std::array<double, 3> point = {x, y, z};
   std::array<int64_t, 3> offset;  // from the cube's origin to the point
@@ -121,14 +121,14 @@ double fractalNoise3(double x, double y, double z) {
     for (int i = 0; i < 3; ++i) seed += (c >> i & 1) * units * kSeeds[i];
     corner[c] = latticeRandom(seed);
   }
-  // Replace the cube by the octant that contains the point, again and again. Each corner of the octant is a
-  // corner of the cube, or the midpoint of an edge, of a face or of the cube. A midpoint gets the mean of the
-  // corners of its edge, face or cube, plus a displacement in proportion to the spacing.
+  // Repeatedly replaces the cube by the octant that contains the point. Each corner of the octant is a corner
+  // of the cube, or the midpoint of an edge, of a face or of the cube. The value at a midpoint is the mean of
+  // the corners of its edge, face or cube, plus a displacement in proportion to the spacing.
   constexpr std::array<double, 8> kShare = {1, 1. / 2, 1. / 2, 1. / 4, 1. / 2, 1. / 4, 1. / 4, 1. / 8};
   for (int64_t half = units / 2; half > 0; half /= 2) {
     int octant = 0;
-    int64_t nearest = origin;       // seed of the corner that the octant shares with the cube
-    std::array<int64_t, 3> inward;  // the change of the seed along half an edge from there, by axis
+    int64_t nearest = origin;       // seed of the corner common to octant and cube
+    std::array<int64_t, 3> inward;  // change of the seed along half an edge from that corner, by axis
     for (int i = 0; i < 3; ++i) {
       const bool far = offset[i] > half;
       octant |= far << i;
@@ -139,8 +139,8 @@ double fractalNoise3(double x, double y, double z) {
         origin += half * kSeeds[i];
       }
     }
-    // sum[m] is the sum of the values at the corners of an edge, of a face or of the cube: of the one that
-    // extends from the corner that octant and cube share, along the axes whose bits are set in m.
+    // sum[m] is the sum of the values at the corners of an edge, a face or the cube: the one that extends
+    // from the corner common to octant and cube, along the axes whose bits are set in m.
     std::array<double, 8> sum;
     for (int m = 0; m < 8; ++m) sum[m] = corner[m ^ octant];
     for (int bit = 1; bit < 8; bit *= 2) {

@@ -12,7 +12,7 @@
 namespace rad::calc {
 namespace {
 
-// Rounds as RADIANCE does: adds a half, then truncates towards zero. Returns -1 for NaN.
+// Rounds like RADIANCE: adds one half, then truncates towards zero. Returns -1 for NaN.
 int rounded(double x) { return std::isnan(x) ? -1 : static_cast<int>(std::clamp(x, -1e9, 1e9) + .5); }
 
 double checked(double value, uint32_t& faults) {
@@ -98,7 +98,7 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
       return checked(::y1(a), faults);
     case Op::atan2:
       return checked(std::atan2(a, b), faults);
-    // The order is rounded as the index of select() is. Its size is limited because the C library's
+    // The order is rounded like the index of select(). Its magnitude is limited because the C library's
     // recurrences take time in proportion to it.
     case Op::jn:
       return std::abs(a) < 1e6 ? checked(::jn(static_cast<int>(a + .5), b), faults) : 0;
@@ -119,8 +119,8 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
   }
 }
 
-// Makes room for an activation of a frame and initializes it: the constants, and the cells, none of
-// which has been computed yet.
+// Allocates and initializes an activation of a frame: the constants, and the cells, none of which is computed
+// yet.
 double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const {
   const size_t top = size_t{base} + frame.registers, cellTop = size_t{cellBase} + frame.cells;
   if (state.registers_.size() < top) state.registers_.resize(2 * top);
@@ -134,8 +134,8 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
   return r;
 }
 
-// Pushes an entry onto the stack of returns. The caller keeps the depth of the stack, so that the interpreter
-// can hold it in a register.
+// Pushes an entry onto the return stack. The caller keeps the depth of the stack, so that the interpreter can
+// hold it in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
   if (depth >= kMaxDepth || registers > kMaxRegisters) {
     throw Error(fmt::format("{}: recursion is too deep or endless", frame.name));
@@ -146,9 +146,9 @@ void Program::push(const Frame& frame, State& state, size_t depth, size_t regist
 
 void Program::evaluate(const Point& point, State& state, std::span<double> out) const {
   const Instruction* const code = code_.data();
-  // base and cellBase are where the registers and cells of the running frame begin; top and cellTop are the
-  // first ones that no activation uses. None of these variables is captured or passed by reference, because
-  // the compiler would then keep it in memory instead of in a register.
+  // base and cellBase are the first register and cell of the running frame; top and cellTop are the first
+  // ones that no activation uses. None of these variables is captured or passed by reference, because the
+  // compiler would then keep it in memory instead of a register.
   uint32_t base = 0, cellBase = 0;
   double* r = enter(frames_[0], state, 0, 0);
   uint32_t top = frames_[0].registers, cellTop = frames_[0].cells;
@@ -215,7 +215,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
           continue;
         }
         break;
-      case Op::choose: {  // lists_[b]: the target if no choice applies; then those of the c choices
+      case Op::choose: {  // lists_[b]: the target if no choice applies, then the targets of the c choices
         const double x = r[i->a];
         int n = rounded(x);
         const int choices = static_cast<int>(i->c);
@@ -284,8 +284,8 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         const State::Cell* callerCells = state.cells_.data() + cellBase;
         State::Cell* cells = state.cells_.data() + cellTop;
         for (uint32_t k = 0; k < callee.parameters; ++k, arguments += 3) {
-          // The argument is a register that holds the value, or code that computes it in the caller's frame.
-          // If the caller has a cell for it, the value may have been computed in the meantime.
+          // The argument is a register with the value, or code that computes it in the caller's frame. If the
+          // caller has a cell for it, the value may have been computed since.
           const bool isDone =
               arguments[1] == kDone || (arguments[2] != kNoCell && callerCells[arguments[2]].pc == kDone);
           cells[k] = {isDone ? kDone : arguments[1], base, cellBase};

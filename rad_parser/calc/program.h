@@ -9,22 +9,22 @@ namespace rad::calc {
 // The data of one evaluation, at one point of a surface. The caller owns all spans.
 struct Point {
   std::span<const double> inputs;  // the renderer's variables, in the order of Interface::inputs
-  // arg(1), arg(2) .. of the primitive. Not read if the program was compiled for their values.
+  // arg(1), arg(2), ... of the primitive. Not read if the program was compiled for these values.
   std::span<const double> reals;
-  std::span<const double> arguments;  // of the function, in a program of Library::compileCall()
+  std::span<const double> arguments;  // arguments of the function, in a program from Library::compileCall()
 };
 
-// Why an undefined value was replaced by 0, as in RADIANCE: a division by zero, or a power or library
-// function whose result is not a finite number.
+// Reasons why an undefined value is replaced by 0, as in RADIANCE: division by zero, or a power or library
+// function without a finite result.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
-// The first of these faults in words; "not finite" if there is none, since a sum or a product that overflows
-// is no fault in RADIANCE.
+// The name of the first of these faults. "not finite" if there is none, because in RADIANCE the overflow of a
+// sum or product is not a fault.
 const char* faultName(uint32_t faults);
 
-// A function that the renderer supplies. It is called with all arguments of the call, of which there are at
-// least `arity`. It may depend on the point and its arguments only, and may throw. `needs` has bit i set if
-// it reads input i of Interface::inputs.
+// A function supplied by the renderer. It is called with all arguments of the call, at least `arity`. It may
+// only depend on the point and its arguments, and may throw. `needs`: bit i is set if it reads input i of
+// Interface::inputs.
 struct HostFunction {
   std::string name;
   int arity = 1;
@@ -32,15 +32,15 @@ struct HostFunction {
   double (*call)(const Point& point, std::span<const double> arguments) = nullptr;
 };
 
-// The memory of evaluations. Each thread needs one; it serves any number of programs.
+// The memory for evaluations, one for each thread. It can be used for any number of programs.
 class State {
  public:
   uint32_t faults = 0;  // Fault bits of all evaluations since the caller cleared them
 
  private:
   friend class Program;
-  // A value that is computed when it is first needed. pc: the beginning of its code; kDone once it has been
-  // computed, kBusy during the computation.
+  // A value that is computed when it is first needed. pc: the start of its code; kDone after the computation,
+  // kBusy during it.
   struct Cell {
     uint32_t pc, base, cellBase;
   };
@@ -86,23 +86,23 @@ enum class Op : uint8_t {
   j1,
   y0,
   y1,
-  // of two
+  // library functions of two arguments
   atan2,
   jn,
   yn,
   min,
   max,
-  // of three
+  // library functions of three arguments
   noise3,
   fractalNoise3,
-  // of any number
+  // operations with any number of operands
   finite,
   ifPositive,
   select,
   realArgument,
   host,
   call,
-  // throws an error when it is evaluated
+  // throws an error when evaluated
   fail,
   // instructions without a value
   move,
@@ -118,24 +118,24 @@ enum class Op : uint8_t {
   halt,
 };
 
-// Compiled expressions. Immutable, and shared by all threads. The code is straight-line code over registers.
-// A value that is needed in only one branch of an if() is computed in that branch; a value that several
-// places may need is computed once, when the first of them needs it.
+// Compiled expressions. Immutable, and shared by all threads. The program is straight-line code on registers.
+// A value that is needed in only one branch of an if() is computed in that branch. A value that may be needed
+// in several places is computed once, by the first of these.
 class Program {
  public:
-  // The number of values that evaluate() writes: one for each expression.
+  // The number of results of evaluate(): one for each expression.
   size_t outputs() const { return outputs_.size(); }
 
   // Bit i is set if evaluate() may read Point::inputs[i].
   uint64_t inputs() const { return inputs_; }
 
-  // Whether the values are the same at every point. An empty Point then suffices.
+  // Whether the values are the same at every point. If so, an empty Point is sufficient.
   bool isConstant() const { return constant_; }
 
-  // Evaluates all expressions at a point. Requires out.size() >= outputs(). A fault makes its value 0 and
-  // sets a bit of state.faults. Throws Error, with the place in the function file, for an undefined name, a
-  // missing argument, or recursion beyond kMaxDepth or kMaxCalls; the state may be used again afterwards.
-  // Thread-safe if each thread has its own state.
+  // Evaluates all expressions at a point. Requires out.size() >= outputs(). In case of a fault, the value is
+  // 0 and a bit of state.faults is set. Throws Error, with the place in the function file, for an undefined
+  // name, a missing argument, or recursion beyond kMaxDepth or kMaxCalls; the state may be used again
+  // afterwards. Thread-safe if each thread has its own state.
   void evaluate(const Point& point, State& state, std::span<double> out) const;
   double evaluate(const Point& point, State& state) const {
     double value = 0;
@@ -146,11 +146,11 @@ class Program {
   // The number of instructions, for tests.
   size_t size() const { return code_.size(); }
 
-  // Limits on the calls and postponed values that are being evaluated at one time, and on their
-  // registers (8 bytes each).
+  // Limits on the number of calls and postponed values in progress at the same time, and on their registers
+  // (8 bytes each).
   static constexpr size_t kMaxDepth = 100000, kMaxRegisters = size_t{1} << 25;
-  // Limit on the calls in one evaluation, which take about a second. Recursion that branches can run for very
-  // long without being deep.
+  // Limit on the calls in one evaluation; they take about a second. Branching recursion can run for very long
+  // without being deep.
   static constexpr size_t kMaxCalls = 20000000;
 
  private:
@@ -179,7 +179,7 @@ class Program {
   std::vector<Frame> frames_;  // the first one evaluates the expressions
   std::vector<double> constants_;
   std::vector<uint32_t> cellStarts_;
-  std::vector<uint32_t> lists_;  // operands of instructions that have many
+  std::vector<uint32_t> lists_;  // operands of instructions with many operands
   std::vector<std::string> messages_;
   std::vector<HostFunction> hosts_;
   std::vector<uint32_t> outputs_;  // registers

@@ -27,7 +27,7 @@ void refuse(uint32_t faults, const std::string& place) {
   throw Error(fmt::format("{}: constant expression has no value: {}", place, faultName(faults)));
 }
 
-// The faults of a library function that is called with numbers.
+// The faults of a library function called with numbers.
 uint32_t faultsOf(const LibraryFunction& f, const Syntax& call) {
   uint32_t faults = 0;
   const auto number = [&](size_t i) { return i < call.args.size() ? call.args[i].number : 0; };
@@ -130,9 +130,9 @@ bool SymbolTable::isConstantFunction(const Syntax& name) const {
   return s.library != nullptr && s.library->op != Op::realArgument;
 }
 
-// The value of a constant. Empty if it is not known yet, because it uses something that is still undefined or
-// that is defined with '='; the tree is then left as it is. Throws Error if the value depends on the ray:
-// such a constant has no meaning, and rtrace refuses it.
+// The value of a constant. Empty if it is not known yet, because it uses something that is undefined or
+// defined with '='; the tree then remains as it is. Throws Error if the value depends on the ray, as rtrace
+// does, because such a constant has no meaning.
 std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::string& place) const {
   std::shared_ptr<const Program> program;
   try {
@@ -148,7 +148,7 @@ std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::
   return std::nullopt;
 }
 
-// Whether the evaluation of a tree needs a ray, the real arguments of a primitive or the renderer's
+// Whether the evaluation of a tree needs a ray, the real arguments of a primitive, or the renderer's
 // functions. REQUIRES: the tree compiles.
 bool SymbolTable::needsRay(const Syntax& tree, const std::string& place) const {
   CompileInput input = compileInput(place);
@@ -213,7 +213,7 @@ void SymbolTable::foldCall(Syntax& tree, const std::string& place) const {
   const std::optional<double> value = constantValue(tree, place);
   if (!value) return;
   const Symbol& callee = (*this)[tree.args[0].index];
-  // Compiling a library function of numbers evaluates it without reporting its faults.
+  // Compiling a library function with numbers evaluates it without reporting its faults.
   if (callee.definition == nullptr) refuse(faultsOf(*callee.library, tree), place);
   setNumber(tree, *value);
 }

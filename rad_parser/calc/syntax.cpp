@@ -20,8 +20,8 @@ bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 class Parser {
  public:
-  // oneExpression: text is a single expression, whose place in messages is `file`. Otherwise text is a file,
-  // whose lines are given in messages.
+  // oneExpression: text is a single expression, and `file` is its place for messages. Otherwise text is a
+  // file, and messages contain its lines.
   Parser(std::string_view text, std::string_view file, uint32_t line, bool oneExpression)
       : text_(text), file_(file), line_(line), oneExpression_(oneExpression) {
     skipBlank();
@@ -244,7 +244,7 @@ class Parser {
     }
     const std::string word(text_.substr(begin, position_ - begin));
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), s.number);
-    // from_chars does not distinguish overflow from underflow; strtod does.
+    // strtod distinguishes overflow from underflow, but from_chars does not.
     if (error == std::errc::result_out_of_range) s.number = std::strtod(word.c_str(), nullptr);
     skipBlank();
     return s;

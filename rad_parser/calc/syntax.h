@@ -21,17 +21,17 @@ namespace rad::calc {
 
 inline constexpr char kContextMark = '`';
 
-// Whether a character may be part of a name. The C library's character classes depend on the
-// locale; the language does not.
+// Whether a character may be part of a name. The character classes of the C library are not used, because
+// they depend on the locale.
 bool isNamePart(char c);
 
 struct Syntax {
   enum class Kind : uint8_t { number, channel, name, parameter, call, negate, sum, product, power };
   Kind kind = Kind::number;
   uint32_t line = 0;
-  // channel: its number. parameter: its position, from 0. name: the symbol, set by SymbolTable::bind().
+  // channel: its number. parameter: its position, from 0. name: its symbol, set by SymbolTable::bind().
   int32_t index = -1;
-  double number = 0;         // number: finite or +infinity; the parser makes no negative ones
+  double number = 0;         // number: finite or +infinity; the parser creates no negative numbers
   std::string text;          // name, parameter: as written. sum, product: the operators between args ("+-")
   std::vector<Syntax> args;  // call: the callee (a name or parameter), then the arguments
 };
@@ -41,22 +41,22 @@ struct Definition {
   std::vector<std::string> parameters;  // empty: a variable
   bool constant = false;                // defined with ':'
   Syntax body;
-  std::string file;  // as messages name it
+  std::string file;  // as shown in messages
   uint32_t line = 0;
 
   bool isFunction() const { return !parameters.empty(); }
 };
 
-// Limit on the depth of trees, since the stack is finite. A chain of + and -, or of * and /, is one
-// level however long it is.
+// Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is a single
+// level regardless of its length.
 inline constexpr int kMaxNesting = 400;
 
-// Parses the definitions of a file, whose first line has the number firstLine. Throws Error
-// "FILE:LINE: expected ...".
+// Parses the definitions in a file whose first line has the number firstLine. Throws Error "FILE:LINE:
+// expected ...".
 std::vector<Definition> parseDefinitions(std::string_view text, std::string_view file,
                                          uint32_t firstLine = 1);
 
-// Parses one expression, which must be all of text. Throws Error "PLACE: expected ... in "TEXT"".
+// Parses a single expression, which must be the whole text. Throws Error "PLACE: expected ... in "TEXT"".
 Syntax parseExpression(std::string_view text, std::string_view place);
 
 // Whether two trees are equal. Lines and symbols are not compared.

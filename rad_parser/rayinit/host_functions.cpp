@@ -33,10 +33,10 @@ double projectedArea(const double* direction, double x, double y, double z) {
   return std::abs(direction[0]) * y * z + std::abs(direction[1]) * x * z + std::abs(direction[2]) * x * y;
 }
 
-// Converts luminous intensity to radiance: value, times the first real argument if there are at least two,
-// over the projected area of the luminaire. kind is
+// Converts luminous intensity to radiance: value (times the first real argument if there are at least two),
+// divided by the projected area of the luminaire. kind is
 //   0  no luminaire: the value as it is
-//   1  a flat one
+//   1  a flat luminaire
 //   2  a box, with real arguments 2 to 4 as its sides
 //   3  a box seen from nearby, with the same arguments
 //   4  an upright cylinder, with real arguments 2 and 3 as its diameter and height
@@ -56,7 +56,8 @@ double sourceCorrection(const Point& point, std::span<const double> arguments) {
     case 2:
       return value / projectedArea(d, side(2), side(3), side(4));
     case 3: {
-      // Each side that faces the ray's start adds its area, times the distance of the start from its plane.
+      // Each side that faces the start of the ray contributes its area, times the distance of the start from
+      // its plane.
       const double distance = point.inputs[Ts];
       const double x = side(2), y = side(3), z = side(4);
       const auto beyond = [&](int axis, double length) {
@@ -99,8 +100,8 @@ double sourcePhi(const Point& point, std::span<const double> arguments) {
   }
 }
 
-// The prism panel that the real arguments describe. Their meaning is that of fprism.cal; the third, the
-// panel's thickness, changes nothing.
+// The prism panel described by the real arguments, as in fprism.cal. The third, the panel's thickness, has no
+// effect.
 PrismPanel panelOf(const Point& point, const char* function) {
   const auto argument = [&](size_t n) { return real(point, n, function); };
   PrismPanel panel;
@@ -124,13 +125,13 @@ PrismPanel panelOf(const Point& point, const char* function) {
   return panel;
 }
 
-// One of the directions into which a prism panel sends the light that arrives along the ray. Arguments:
+// One of the directions in which a prism panel emits the light that arrives along the ray. Arguments:
 //   value  0, 1, 2: x, y or z of the direction; 3: its share of the light
-//   which  from .5: only light that passes through the panel; up to -1.5: only light that returns; else all
+//   which  .5 or more: only light that passes through the panel; -1.5 or less: only returned light; else all
 //   rank   1 for the strongest direction, 2 for the second
 // If the ray is aimed at a light source, directions that miss it by more than real argument 10 (radians about
-// z) get the share 0, and rank 2 means the strongest too. If there are fewer directions, the direction is (1,
-// 0, 0) and its share 0. Source: rtrace's answers.
+// z) have the share 0, and rank 2 also means the strongest one. If there are fewer directions than `rank`,
+// the direction is (1, 0, 0) with share 0. Source: output of rtrace.
 double fprismValue(const Point& point, std::span<const double> arguments) {
   constexpr const char* name = "fprism_val";
   const PrismPanel panel = panelOf(point, name);

@@ -3,8 +3,8 @@
 
 namespace rad::calc {
 
-// Indices in Point::inputs. Lengths and directions are in the primitive's own space: its transform, and that
-// of the instance that contains it, have been undone.
+// Indices in Point::inputs. Lengths and directions are in the coordinates of the primitive: its transform,
+// and that of the instance that contains it, have been inverted.
 enum Input : uint32_t {
   Dx,
   Dy,
@@ -30,7 +30,7 @@ enum Input : uint32_t {
   Kx,
   Ky,
   Kz,  // unit z axis
-  Ts,  // length of this ray, or of the shadow ray that it is part of
+  Ts,  // length of this ray or, if it is part of a shadow ray, of the whole shadow ray
   Lu,
   Lv,  // texture coordinates of meshes; 0 for other surfaces
   NxP,
@@ -46,7 +46,8 @@ enum Input : uint32_t {
   kInputs
 };
 
-// Request::available by kind of primitive: patterns and textures, materials with functions or data, prisms.
+// Request::available for three kinds of primitives: patterns and textures, materials with functions or data,
+// prisms.
 inline constexpr uint64_t kPointInputs = (uint64_t{1} << NxP) - 1;
 inline constexpr uint64_t kMaterialInputs = (uint64_t{1} << DxA) - 1;
 inline constexpr uint64_t kPrismInputs = kPointInputs | (uint64_t{7} << DxA);

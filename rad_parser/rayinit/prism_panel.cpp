@@ -11,12 +11,12 @@ namespace {
 using Imath::V2d;
 using Imath::V3d;
 
-// open: the plane through the edges of the prisms, through which light enters and leaves the grooves.
+// open: the plane through the edges of the prisms, where light enters and leaves the grooves.
 enum Side { flat, upper, lower, open };
 
 constexpr int kMostSides = 100000, kMostDepth = 1000;
 
-// Light in one direction. The two fields represent its polarization; initially their lengths are 1.
+// Light in one direction. The two fields represent its polarization; initially they have unit length.
 struct Beam {
   V3d direction;
   V3d fields[2];
@@ -26,8 +26,8 @@ struct Beam {
 
 double cross(const V2d& u, const V2d& v) { return u.x * v.y - u.y * v.x; }
 
-// The axes of polarization for light that meets a side with this normal: parallel and perpendicular
-// to the plane of incidence.
+// The axes of polarization of light that hits a side with this normal: parallel and perpendicular to the
+// plane of incidence.
 struct Axes {
   V3d parallel, perpendicular;
 };
@@ -65,7 +65,7 @@ class Trace {
   }
 
  private:
-  // Follows light that leaves a side to the sides that it meets next.
+  // Follows light that leaves a side to the next sides.
   void goOn(const Beam& beam, Side from, int depth) {
     if (!(beam.share > panel_.threshold)) return;
     if (beam.inside) {
@@ -80,8 +80,8 @@ class Trace {
     }
   }
 
-  // Follows light from the side pq of a triangle to its sides rp and rq. The line through r along the beam
-  // divides pq into the parts whose light meets either side.
+  // Follows light from the side pq of a triangle to its sides rp and rq. A line through r along the beam
+  // divides pq into the parts from which light hits each of these sides.
   void split(const Beam& beam, const V2d& p, const V2d& q, const V2d& r, Side rp, Side rq, int depth) {
     const V2d along(beam.direction.x, beam.direction.y);
     const double width = cross(q - p, along);
@@ -98,7 +98,7 @@ class Trace {
     meet(beam, to, depth + 1);
   }
 
-  // Reflection and refraction. Source: Born and Wolf, 1.5.2.
+  // Reflection and refraction at a side. Source: Born and Wolf, 1.5.2.
   void meet(const Beam& beam, Side side, int depth) {
     if (++sides_ > kMostSides || depth > kMostDepth)
       throw Error("too many reflections in a prism panel: its threshold is too low");
@@ -131,8 +131,8 @@ class Trace {
     goOn(refracted, side, depth);
   }
 
-  // Computes the fields of `to` from those of `from` by the amplitudes along both axes, and its share by the
-  // energy that the fields keep, times factor.
+  // Computes the fields of `to` from those of `from` with the amplitudes along both axes; and its share, from
+  // the remaining energy of the fields times factor.
   void change(const Beam& from, Beam& to, const V3d& normal, double parallel, double perpendicular,
               double factor) {
     const Axes before = axesOf(from.direction, normal), after = axesOf(to.direction, normal);
@@ -160,8 +160,8 @@ class Trace {
   }
 
   const PrismPanel& panel_;
-  // Of two neighbouring prisms: the beginning of the first, its edge, where they meet,
-  // and the edge of the second.
+  // For two neighbouring prisms: the start of the first, its edge, the valley between them, and the edge of
+  // the second.
   V2d foot_, edge_, valley_, nextEdge_;
   V3d normals_[3];  // of the glass, outwards, by Side
   PanelRays rays_;
