@@ -21,8 +21,8 @@ class FileAccess {
   static FileAccess foldersOf(std::span<const std::string> given);
 
   bool allows(const std::string& path) const;
-  // The end of a message about a file that was not found: the allowed folders, if files are restricted, or
-  // the folders of RAYPATH in which a file of this name was searched. Empty if neither applies.
+  // The end of a message about a file that was not found: the allowed folders, if files are restricted; or
+  // the folders of RAYPATH, if a file of this name is searched there. Otherwise empty.
   std::string remark(std::string_view name = {}) const;
 
  private:

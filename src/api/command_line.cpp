@@ -12,8 +12,7 @@
 namespace rsphere::v1 {
 namespace {
 
-// Ends the words of the options, as a scene does on a command line. No option takes an empty word for a
-// value.
+// Ends the words of the options, like a scene on a command line. No option accepts an empty word as a value.
 constexpr std::string_view kScene;
 
 class Words {
@@ -38,7 +37,7 @@ class Words {
   std::vector<std::string> words_;
 };
 
-// Parameters become definitions behind those of the files, which they replace.
+// Parameters become definitions after those of the files, which they override.
 void addBins(const Bins& bins, Words& words) {
   if (bins.zones > 1) throw rad::Error("directionBins have an expression; Options::zones are equal zones");
   for (const std::string& file : bins.files) words.add("-f", std::optional(file));
@@ -55,7 +54,7 @@ void refuse(bool given, std::string_view option, std::string_view reason) {
   if (given) throw rad::Error(fmt::format("option '{}': {}", option, reason));
 }
 
-// Whether an option concerns threads or output alone.
+// Whether an option only affects threads or output.
 bool isOfOutput(const OptionEntry& entry) {
   static constexpr std::array<std::string_view, 7> kNames = {"-n", "-o", "-h", "-x", "-y", "-t", "-w"};
   if (entry.name == "-cs" || entry.name == "-cw") return false;  // the bands in which light is computed
@@ -130,7 +129,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   }
   parsed.out = NumberFormat::float64;
 
-  // The words have variables and files of options replaced.
+  // The words contain the values of variables and the contents of option files.
   CommandOptions result{std::move(parsed), {}, {}};
   const auto add = [](std::string& key, const std::string& word) { key.append(word).push_back('\0'); };
   add(result.key, result.options.program);

@@ -6,19 +6,19 @@
 
 namespace rsphere::v1 {
 
-// What calls of the library answer.
+// The kinds of records that calls of the library answer.
 enum class Records { rays, points, glare, contributions };
 
-// The options of a call as the command's parser reads them.
+// The options of a call, read by the command's parser.
 struct CommandOptions {
   rsphere::Options options;  // for binary output
-  // Equal if the answers are, and how they are written: the words of the command line.
+  // The words of the command line. If equal for two calls, their answers and output formats are equal.
   std::string key;
-  // Equal if the same preparations of the scene serve both: the words without those of threads and output.
+  // The words without those for threads and output. If equal for two calls, they can share a prepared scene.
   std::string sceneKey;
 };
 
-// Throws rad::Error as the parser does, and if an option has no meaning in the library.
+// Throws rad::Error like the parser, and if an option has no meaning in the library.
 CommandOptions commandOptions(const Options& options, Records records);
 
 }  // namespace rsphere::v1

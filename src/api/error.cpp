@@ -11,8 +11,8 @@ const char* version() { return kVersion; }
 
 namespace {
 
-// The file of a message "FILE: cannot open scene file: ..." or "FILE (from OTHER:12): cannot open ...", which
-// names no line of it; empty for any other message.
+// The file in a message "FILE: cannot open scene file: ..." or "FILE (from OTHER:12): cannot open ...", which
+// contains no line; empty for any other message.
 std::string fileNotOpened(const std::string& text) {
   const size_t end = text.find(": cannot open ");
   if (end == std::string::npos) return "";
@@ -23,7 +23,7 @@ std::string fileNotOpened(const std::string& text) {
 }  // namespace
 
 Error::Error(const std::string& text, Cause cause) : std::runtime_error(text), cause_(cause) {
-  // The place is "FILE:LINE: ". A name of a file may itself contain colons.
+  // The place is "FILE:LINE: ". The name of the file may contain colons.
   for (size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
     int line = 0;
     const char* const end = text.data() + text.size();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostBins = 1e6;
 
-// Sets the bins that function files number. Throws rad::Error if these are wrong.
+// Sets bins that are numbered by function files. Throws rad::Error if these are invalid.
 void setFunction(const Bins& bins, TrackedModifier& modifier) {
   BinDefinitions definitions;
   for (const std::string& file : bins.files) definitions.shared.push_back({true, file});

@@ -9,11 +9,11 @@
 
 namespace rsphere::v1 {
 
-// The modifiers, all with the same bins. Throws rad::Error if one is named twice, or if the bins are wrong.
+// The modifiers, all with the same bins. Throws rad::Error if one is named twice, or if the bins are invalid.
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
-// Answers rays with contributions, as doubles: the mean of each number of each column over the samples, and
-// with more than one sample the standard errors of these means. Threads of -n may call answer() at once.
+// Answers rays with contributions, as doubles: for each value of each column the mean over the samples and,
+// with more than one sample, its standard error. Threads of -n may call answer() at the same time.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.
@@ -23,7 +23,7 @@ class RayContributions {
   RayContributions& operator=(const RayContributions&) = delete;
 
   void answer(const Record& record, unsigned worker, std::string& bytes);
-  // Numbers of a mean.
+  // Number of values in the means of a record.
   size_t numbers() const { return static_cast<size_t>(tracked_.columns()) * components_; }
 
  private:

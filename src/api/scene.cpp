@@ -34,17 +34,17 @@ namespace rsphere::v1 {
 namespace {
 
 constexpr auto kAskToStop = std::chrono::milliseconds(100);
-// Claims of records for each thread: enough of them that all threads end at nearly the same time.
+// Claims of records for each thread. With this number, all threads end at nearly the same time.
 constexpr size_t kClaims = 64;
 constexpr size_t kLargestClaim = 256;
 
 static_assert(kBrightnessWeights == std::array{kRedWeight, kGreenWeight, kBlueWeight});
 static_assert(sizeof(Point) == 3 * sizeof(double) && sizeof(Ray) == 6 * sizeof(double));
 
-// Thrown by a thread that finds that the call is to end.
+// Thrown by a thread that notices that the call must end.
 struct Stopped {};
 
-// Collects the warnings of all threads until the thread that called the library passes them on.
+// Collects the warnings of all threads, until the calling thread passes them on.
 class Warnings {
  public:
   rad::Warn collector() {
@@ -68,8 +68,7 @@ class Warnings {
   std::vector<std::string> texts_;
 };
 
-// Calls `work` and turns the library's own exceptions into public ones. passWarnings() is called in either
-// case.
+// Calls `work` and converts internal exceptions to public ones. passWarnings() is called in either case.
 template <typename PassWarnings, typename Work>
 auto guarded(const PassWarnings& passWarnings, const Work& work) {
   const auto fault = [&](const std::string& text, Error::Cause cause) {
@@ -88,7 +87,7 @@ auto guarded(const PassWarnings& passWarnings, const Work& work) {
   }
 }
 
-// The scene prepared for a set of options. Warnings may also be added while it is used.
+// The scene, prepared for a set of options. Warnings may be added later, while it is in use.
 struct PreparedScene {
   PreparedScene(std::shared_ptr<const rsphere::Scene> of, const rsphere::Options& options)
       : scene(std::move(of)),
@@ -104,7 +103,7 @@ rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options option
   return options;
 }
 
-// The goals of importance(); empty in other calls.
+// The goals of importance(); empty for other calls.
 struct Goals {
   std::span<const std::string> modifiers;
   std::span<const double> sensors;  // x y z dx dy dz of each
@@ -112,7 +111,7 @@ struct Goals {
   bool empty() const { return modifiers.empty() && sensors.empty(); }
 };
 
-// Makes a call one for the importance of goals.
+// Makes the call compute the importance of goals.
 void addGoals(CommandOptions& given, const Goals& goals) {
   given.options.separate = true;
   given.options.goals.assign(goals.modifiers.begin(), goals.modifiers.end());
@@ -129,7 +128,7 @@ void addGoals(CommandOptions& given, const Goals& goals) {
   }
 }
 
-// What answers the records of one call at a time.
+// Answers the records of a call. It serves one call at a time.
 struct Answerer {
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given)
       : options(optionsFor(*prepared->scene, given)),
@@ -173,7 +172,7 @@ struct Answerer {
   AnswerRecord withSources(const std::function<void()>& checkStop);
 };
 
-// The letters of a glare source in the order in which takeSources() reads them.
+// The letters of a glare source, in the order in which takeSources() reads them.
 constexpr const char* kSourceLetters = "dlLwWps";
 
 // Appends the glare sources of an eye to its record.
@@ -192,7 +191,7 @@ AnswerRecord Answerer::withSources(const std::function<void()>& checkStop) {
   };
 }
 
-// Receives the answer to a record: bytes as the command writes them.
+// Receives the answer to a record, as bytes in the command's format.
 using Keep = std::function<void(size_t record, const std::string& bytes)>;
 
 // One call: its records, and the threads that answer them.
@@ -271,8 +270,8 @@ void Call::work(unsigned worker) {
   std::string bytes;
   for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
     for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
-      // Records before a faulty one are still answered, so that the first fault is reported whatever the
-      // threads do.
+      // Records before a faulty one are still answered, so that the reported error is always the first,
+      // regardless of threads.
       if (i > faultAt_) return;
       try {
         if (answerer_.stop) throw Stopped();
@@ -309,7 +308,7 @@ Record Call::record(size_t index) const {
   return record;
 }
 
-// Keeps the exception that is being handled, if no earlier record has one.
+// Stores the current exception, unless an earlier record has one.
 void Call::fail(size_t index) {
   const std::lock_guard lock(mutex_);
   if (index > faultAt_) return;
@@ -317,7 +316,7 @@ void Call::fail(size_t index) {
   fault_ = std::current_exception();
 }
 
-// A letter of -o and where its answers are kept.
+// A letter of -o, and where its answers are stored.
 struct Column {
   char letter;
   Quantity* quantity = nullptr;
@@ -365,7 +364,7 @@ std::vector<Column> columnsOf(GlareAnswers& a) {
           {'g', &a.daylightGlareProbability}, {'G', &a.dgpStandardError}, {'t', &a.threshold}};
 }
 
-// The columns of the letters, in their order, with room for the answers.
+// The columns for the letters, in order, with memory for the answers.
 std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere::Options& options,
                                    size_t records) {
   std::vector<Column> columns;
@@ -389,8 +388,8 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
   return columns;
 }
 
-// Takes a record apart that AnswerWriter has written as float64: numbers as they are, names with a TAB behind
-// them. Returns where it ends.
+// Splits a record written by AnswerWriter as float64: numbers are copied, names end with a TAB. Returns the
+// end of the record.
 const char* takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
   const char* at = bytes.data();
   for (const Column& column : columns) {
@@ -445,8 +444,8 @@ struct Scene::Implementation {
   const std::shared_ptr<const rsphere::Scene> scene_;
   const std::vector<std::string> goals_;
 
-  // Prepared scenes by CommandOptions::sceneKey, as long as they are in use; and at most one idle answerer
-  // for rays and one for points: those of the last options.
+  // Prepared scenes by CommandOptions::sceneKey, as long as they are in use. At most one idle answerer for
+  // rays and one for points is kept, for the last options.
   struct Idle {
     std::string key;
     std::unique_ptr<Answerer> answerer;
@@ -454,17 +453,17 @@ struct Scene::Implementation {
   std::mutex mutex_;
   std::vector<std::pair<std::string, std::weak_ptr<PreparedScene>>> prepared_;
   Idle rays_, points_;
-  std::shared_ptr<PreparedScene> ofContributions_;  // that of the last call
+  std::shared_ptr<PreparedScene> ofContributions_;  // of the last call
 };
 
-// An answerer for these options: the idle one, or a new one. The scene of another answerer serves as well if
-// the same preparations do.
+// An answerer for these options: the idle one or a new one. A new one uses the prepared scene of another
+// answerer if their preparations are the same.
 std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
   {
     const std::lock_guard lock(mutex_);
     Idle& idle = given.options.sphereMode ? points_ : rays_;
     if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
-    // The memory of the last options is free before that of others is needed.
+    // Frees the memory for the last options before that for new ones is allocated.
     if (!preparedFor(given.sceneKey)) idle.answerer.reset();
   }
   return std::make_unique<Answerer>(prepare(given), given.options);
@@ -490,7 +489,7 @@ std::shared_ptr<PreparedScene> Scene::Implementation::prepare(const CommandOptio
   return shared;
 }
 
-// The scene as it was read, or a copy with goals or contributors of its own.
+// The scene as it was read, or a copy with other goals or contributors.
 std::shared_ptr<const rsphere::Scene> Scene::Implementation::sceneFor(const rsphere::Options& options) const {
   if (!options.separate) return scene_;
   auto copy = std::make_shared<rsphere::Scene>(*scene_);

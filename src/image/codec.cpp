@@ -13,16 +13,16 @@
 namespace rsphere {
 namespace {
 
-// The folders in which the shared object may lie.
+// The folders that may contain the shared object.
 std::vector<std::filesystem::path> folders() {
   std::vector<std::filesystem::path> found;
-  // Part of librsphere.so: the folder rsphere is beside the library or, if the library's own folder is named
-  // after the machine as on Debian, beside that folder.
+  // For librsphere.so, it is the folder rsphere next to the library or, if the library's folder is named
+  // after the machine as on Debian, next to that folder.
   Dl_info info;
   link_map* object = nullptr;
   const bool known = dladdr1(reinterpret_cast<const void*>(&imageCodec), &info,
                              reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
-  if (known && object && object->l_name[0] != '\0') {  // the program itself has no name
+  if (known && object && object->l_name[0] != '\0') {  // an empty name is that of the program itself
     const std::filesystem::path beside = std::filesystem::path(object->l_name).parent_path();
     found.push_back(beside / "rsphere");
     found.push_back(beside.parent_path() / "rsphere");
@@ -60,7 +60,7 @@ const ImageCodec& imageCodec() {
 }  // namespace rsphere
 
 #ifdef __SANITIZE_ADDRESS__
-// Asked by the leak sanitizer at the program's end: that of GCC 12 may crash in a program that has loaded
+// Called by the leak sanitizer at the end of the program. GCC 12's may crash in a program that has loaded
 // OpenImageIO.
 extern "C" [[gnu::visibility("default")]] int __lsan_is_turned_off() { return rsphere::loaded; }
 #endif

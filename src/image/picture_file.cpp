@@ -25,8 +25,8 @@ namespace {
   throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
 }
 
-// A new file in the folder of a file, with a name of its own. The destructor removes it, unless it has
-// replaced the file.
+// A new file with a unique name in the folder of a target file. The destructor removes it, unless it has
+// replaced the target.
 class NewFile {
  public:
   explicit NewFile(std::string target) : target_(std::move(target)) {
@@ -75,7 +75,7 @@ bool isStandardDescriptor(const struct stat& file) {
   return false;
 }
 
-// The name without links; the name itself if it has none that can be found.
+// The name with all links resolved; the name itself if it cannot be resolved.
 std::string realPath(const std::string& name) {
   const std::unique_ptr<char, void (*)(void*)> path(realpath(name.c_str(), nullptr), std::free);
   return path ? path.get() : name;
@@ -137,8 +137,8 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   const int fd = open(name_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   const bool written = writeAll(fd, bytes);
   const int why = errno;
-  // The file is emptied, because some readers would take an incomplete picture for a complete one. That this
-  // fails for a device does not matter.
+  // The file is emptied, because some readers would accept an incomplete picture. Emptying fails for devices,
+  // where it is not needed.
   if (fd >= 0 && !written) [[maybe_unused]]
     const int emptied = ftruncate(fd, 0);
   if (fd >= 0) close(fd);

@@ -12,10 +12,10 @@
 namespace rsphere {
 namespace {
 
-// The format's run-length code: a count up to 128 precedes that many bytes, a larger count precedes one byte
-// that is repeated count - 128 times.
+// The format's run-length code: a count up to 128 is followed by that number of bytes; a larger count by a
+// single byte, which is repeated count - 128 times.
 constexpr size_t kMostLiteral = 128, kLongestRun = 127;
-// A run takes two bytes. Shorter runs gain nothing, because they split the sequence of bytes around them.
+// A run takes two bytes. Shorter runs save nothing, because they split the surrounding sequence of bytes.
 constexpr size_t kShortestRun = 4;
 constexpr int kLeastCodedWidth = 8, kMostCodedWidth = 32767;
 

@@ -6,7 +6,7 @@
 namespace rsphere {
 namespace {
 
-// pixel: a byte for each value, and one for the exponent.
+// pixel: one byte for each value, then one for the exponent.
 void setPixel(std::span<const double> values, std::span<uint8_t> pixel) {
   std::fill(pixel.begin(), pixel.end(), uint8_t{0});
   float largest = 0;

@@ -4,7 +4,7 @@
 
 namespace rsphere {
 
-// The sRGB value, 0 to 1, of a linear value of at least 0; above 1 it is that of 1. Source: IEC 61966-2-1.
+// The sRGB value, 0 to 1, of a linear value of at least 0; values above 1 are clipped. Source: IEC 61966-2-1.
 inline double sRgb(double x) {
   return x <= .0031308 ? 12.92 * x : 1.055 * std::pow(std::min(x, 1.), 1 / 2.4) - .055;
 }

@@ -21,12 +21,12 @@ double secondsOf(clockid_t clock) {
 
 using Clock = std::chrono::steady_clock;
 
-// For calls that end soon after a signal.
+// Time for calls that end soon after a signal.
 constexpr std::chrono::milliseconds kGrace(100);
-// A signal is noticed within this time.
+// Interval at which signals are checked.
 constexpr std::chrono::milliseconds kGlance(20);
 
-// Counts the threads that have ended.
+// The number of threads that have ended.
 class Ended {
  public:
   void add() {
@@ -34,7 +34,7 @@ class Ended {
     ++count_;
     changed_.notify_all();
   }
-  // Waits for so many, but not beyond this time. Returns whether they have ended.
+  // Waits for this number of threads, but not beyond `end`. Returns whether they have ended.
   bool await(unsigned count, Clock::time_point end) {
     std::unique_lock lock(mutex_);
     return changed_.wait_until(lock, end, [&] { return count_ >= count; });

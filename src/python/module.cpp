@@ -1,4 +1,4 @@
-// The module rsphere of Python: NumPy arrays in and out, by the public library alone.
+// The Python module rsphere: converts from and to NumPy arrays; uses only the public library.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// Calls `work` without the lock of the interpreter. Warnings become Python's. Ctrl-C ends the work.
+// Calls `work` without the interpreter lock. Warnings become Python warnings. Ctrl-C ends the work.
 template <typename SomeOptions, typename Work>
 auto withoutLock(SomeOptions& options, const Work& work) {
   std::vector<std::string> warnings;
@@ -42,15 +42,15 @@ auto withoutLock(SomeOptions& options, const Work& work) {
   }
 }
 
-// Whether a signal has come for which Python has an exception, as KeyboardInterrupt.
+// Whether a signal has arrived that raises an exception in Python, such as KeyboardInterrupt.
 bool interrupted() {
   const py::gil_scoped_acquire lock;
   return PyErr_CheckSignals() != 0;
 }
 
-// The array of a quantity, which takes its memory over: one row for each record, divided by each of `parts`
-// that is not 0 (contributors, faces); one number instead of a row of one. None if the quantity was not asked
-// for.
+// The array of a quantity, whose memory it takes over. It has a row for each record, divided by each of
+// `parts` that is not 0 (contributors, faces); rows of a single number become that number. None if the
+// quantity was not requested.
 py::object arrayOf(Quantity&& quantity, size_t records, std::initializer_list<size_t> parts = {}) {
   if (quantity.columns == 0) return py::none();
   std::vector<size_t> shape{records};
@@ -71,8 +71,8 @@ py::object arrayOf(const std::vector<std::string>& names) {
   return py::module_::import("numpy").attr("array")(names);
 }
 
-// The numbers of an array or of lists. Throws what Python calls TypeError or ValueError for those that are no
-// plain real numbers: the imaginary parts and the mask would be lost.
+// The numbers of an array or of lists. Raises TypeError or ValueError if they are not plain real numbers,
+// because imaginary parts and masks would be lost.
 Numbers numbersOf(const py::object& array, const std::string& name) {
   const py::module_ numpy = py::module_::import("numpy");
   if (py::isinstance(array, numpy.attr("ma").attr("MaskedArray")))
@@ -85,7 +85,7 @@ Numbers numbersOf(const py::object& array, const std::string& name) {
   return array.cast<Numbers>();
 }
 
-// The scene of a method. Scene.__new__(Scene) has none, nor has an object of another class.
+// The scene of a method. Scene.__new__(Scene) and objects of other classes have none.
 const Scene& sceneOf(const py::object& self) {
   if (!py::isinstance<Scene>(self)) throw py::type_error("this method belongs to a Scene");
   auto* const instance = reinterpret_cast<py::detail::instance*>(self.ptr());
@@ -168,7 +168,7 @@ py::object sphere(const py::object& self, const py::object& given, const py::kwa
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
-// Whether goals are given as names of modifiers. Throws what Python calls TypeError for a single word.
+// Whether goals are given as names of modifiers. Raises TypeError for a single word.
 bool areNames(const py::object& goals) {
   if (py::isinstance<py::str>(goals)) throw py::type_error("goals must be a list: [\"desk\"]");
   if (!py::isinstance<py::sequence>(goals)) return false;
@@ -192,7 +192,7 @@ py::object importance(const py::object& self, const py::object& given, const py:
   return arraysOf(withoutLock(options, [&] { return scene.importanceOfSensors(points, sensors, options); }));
 }
 
-// Eyes and gazes of arrays; one gaze serves all eyes.
+// Eyes and gazes from arrays; a single gaze applies to all eyes.
 std::vector<Ray> eyesOf(const Numbers& eyes, const Numbers& gazes) {
   const std::span<const Point> places = recordsOf<Point>(eyes, "eyes");
   const bool one = gazes.ndim() == 1 && gazes.shape(0) == 3;
@@ -271,7 +271,7 @@ py::object contributions(const py::object& self, const py::object& given, const 
   return answersObject(arrays);
 }
 
-// The directions in the middle of zones.
+// The middle directions of zones.
 py::object zoneMiddlesOf(size_t count) {
   if (count < 1) throw py::value_error("the number of zones must be at least 1");
   Quantity directions{3, {}};
@@ -294,8 +294,8 @@ py::object photometricOf(const py::object& color) {
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
 }
 
-// The text of an error, which refers to the help of Python instead of that of the command, and to options
-// instead of a command line.
+// The text of an error, adapted to Python: it refers to Python's help instead of the command's, and to
+// options instead of a command line.
 std::string forPython(std::string text) {
   constexpr std::string_view kCommand = "command line error at ";
   if (text.starts_with(kCommand)) text.replace(0, kCommand.size(), "option ");
@@ -305,7 +305,7 @@ std::string forPython(std::string text) {
   return text;
 }
 
-// Makes the exception rsphere.Error, with the members of the library's.
+// Creates the exception rsphere.Error, with the members of the library's Error.
 void addError(py::module_& m) {
   static PyObject* type = nullptr;  // lives as long as the interpreter
   type = PyErr_NewExceptionWithDoc(

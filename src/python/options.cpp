@@ -9,14 +9,14 @@ namespace py = pybind11;
 namespace rsphere::python {
 namespace {
 
-// Sets a member if the keyword is its name.
+// Sets a member if its name is that of the keyword.
 struct Keyword {
   std::string_view name;
   py::handle value;
   const py::kwargs& all;
   bool known = false;
 
-  // option: the same option of the command, without its hyphen, if there is one.
+  // option: the corresponding option of the command, without its hyphen, if there is one.
   template <typename Member>
   void set(std::string_view member, Member& to, const char* option = "") {
     if (name != member) return;
@@ -32,8 +32,8 @@ struct Keyword {
   }
 };
 
-// Whether the name cannot be that of an option of the command: none has an underscore within, and what
-// follows -f, -o, -te and -ti without a blank is their value, which is not part of a keyword.
+// Whether a keyword cannot be the name of an option of the command. Options contain no underscore. Text
+// directly after -f, -o, -te and -ti is their value, which is not part of a keyword.
 bool isNoOption(std::string_view name) {
   const size_t at = name.find('_');
   if (at != name.npos && at + 1 < name.size()) return true;
@@ -48,7 +48,7 @@ bool isSequence(const py::handle& value) {
 void addWords(std::vector<std::string>& words, std::string name, py::object value) {
   if (!name.empty() && name.back() == '_') name.pop_back();
   name.insert(name.begin(), '-');
-  // Numbers and arrays of NumPy become those of Python.
+  // Converts numbers and arrays of NumPy to Python's.
   if (py::hasattr(value, "tolist")) value = value.attr("tolist")();
   if (py::isinstance<py::bool_>(value)) {
     words.push_back(name + (value.cast<bool>() ? '+' : '-'));

@@ -6,22 +6,23 @@
 
 namespace RSPHERE_API_NAMESPACE {
 
-// Thrown by every function of the library that fails; besides it, only std::bad_alloc is thrown. what() is
-// the line that the command rsphere prints, without the program's name. It begins with the place if there is
-// one:
+// Thrown if a function of the library fails. The only other exception is std::bad_alloc. what() is the line
+// printed by the command rsphere, without the program's name. It begins with the place of the error, if there
+// is one:
 //   room.rad:12: undefined modifier "wall"
 class RSPHERE_API Error : public std::runtime_error {
  public:
-  // input: the scene, the options or the records; status 1 of the command. system: a file cannot be opened,
-  // memory or threads are short; status 2. stopped: Options::stop has returned true.
+  // input: an error in the scene, the options or the records; exit status 1 of the command. system: a file
+  // cannot be opened, or memory or threads are insufficient; exit status 2. stopped: Options::stop returned
+  // true.
   enum class Cause { input, system, stopped };
 
   Error(const std::string& text, Cause cause);
   ~Error() override;
 
   Cause cause() const { return cause_; }
-  // The file that the message begins with, and the line in it, from 1; 0 for a file that cannot be opened.
-  // Empty and 0 if the message names no place.
+  // The file at the beginning of the message and the line in it, from 1; 0 for a file that cannot be opened.
+  // Empty and 0 if the message contains no place.
   const std::string& file() const { return file_; }
   int line() const { return line_; }
 

@@ -1,13 +1,13 @@
 #pragma once
-// The version of the library that these headers belong to. Programs compiled for 1.x run with any later 1.y;
-// a program that must know which one it has asks version().
+// The version of the library with these headers. Programs compiled for 1.x run with any later 1.y; version()
+// returns the version in use.
 
 #define RSPHERE_VERSION_MAJOR 1
 #define RSPHERE_VERSION_MINOR 0
 #define RSPHERE_VERSION_PATCH 0
 
-// Programs find everything public in namespace rsphere. Its symbols are in rsphere::v1 in any case. v1 is not
-// inline where the library itself is compiled, because internal types of the same names are in rsphere.
+// All public names are in namespace rsphere for programs. Their symbols are in rsphere::v1. While the library
+// itself is compiled, v1 is not inline, because internal types in rsphere have the same names.
 #ifdef RSPHERE_LIBRARY_SOURCE
 #define RSPHERE_API_NAMESPACE rsphere::v1
 #else
@@ -17,7 +17,7 @@
 
 namespace RSPHERE_API_NAMESPACE {
 
-// The version of the library that the program runs with: "1.0.0", or "1.0.0-rc1" for a release candidate.
+// The version of the library in use: "1.0.0", or "1.0.0-rc1" for a release candidate.
 RSPHERE_API const char* version();
 
 }  // namespace RSPHERE_API_NAMESPACE

@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// No threads of its own: -n says how many there are, and pictures are small.
+// OpenImageIO starts no threads, because -n limits their number, and pictures are small.
 [[maybe_unused]] const bool kOneThread = OIIO::attribute("threads", 1);
 
 std::string formatOf(const std::string& name, std::string& format) {
@@ -22,7 +22,7 @@ std::string formatOf(const std::string& name, std::string& format) {
   return "";
 }
 
-// A file in memory, for the formats whose writers need a file by name: SGI, FITS and others.
+// A file in memory, for formats whose writers need the name of a file: SGI, FITS and others.
 class MemoryFile {
  public:
   MemoryFile() : fd_(memfd_create("picture", MFD_CLOEXEC)) {}
