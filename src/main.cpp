@@ -24,15 +24,15 @@
 namespace rsphere {
 namespace {
 
-// An object that lasts until the process ends. The system frees its memory faster than destructors would.
+// An object that exists until the process ends. The system frees its memory faster than destructors would.
 template <typename T>
 const T& lasting(const T* object) {
   static const T* const kept = object;  // a leak checker finds the object here
   return *kept;
 }
 
-// Pictures report their progress if -t asks for it, or on a terminal; never to a program that reads the
-// messages.
+// The progress of pictures is reported if -t is given, or if messages go to a terminal; otherwise not,
+// because a program may read the messages.
 PictureProgress::Report pictureReport(const Options& options, const Messages& messages) {
   if (options.progressSeconds <= 0 && isatty(messages.descriptor()) == 0) return {};
   return [&messages](std::string_view text) { messages.report(text); };
@@ -57,7 +57,7 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   RecordReader reader(0, options);
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
-  writer.flush();  // a program that talks to this one may read the header before it sends a record
+  writer.flush();  // a communicating program may read the header before it sends a record
   requirePictureNames(options, reader);
   PointSummary summary;
   RunEnd end;
@@ -77,7 +77,7 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
              end);
 }
 
-// Called by the name rcontrib.
+// Runs the program if it is called by the name rcontrib.
 int contributions(int argc, char** argv) {
   limitMemory();
   ContributionOptions options;

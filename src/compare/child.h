@@ -5,11 +5,11 @@
 
 namespace rsphere {
 
-// A file in memory. It has no name, so that nothing is left behind if the program is killed.
+// A file in memory. It has no name, so that nothing remains if the program is killed.
 class MemoryFile {
  public:
-  // The file contains `bytes`, and its offset is at their start. Throws rad::Error
-  // (Status::system) if the system refuses.
+  // The file contains `bytes`, and its offset is at their start. Throws rad::Error (Status::system) if it
+  // cannot be created.
   explicit MemoryFile(std::string_view bytes = {});
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;
@@ -27,12 +27,12 @@ class MemoryFile {
 struct ChildResult {
   int status = 0;      // exit status; 128 plus the number of the signal that ended it
   std::string errors;  // the text that it wrote to standard error
-  double seconds = 0;  // CPU time, including that of its own children
+  double seconds = 0;  // CPU time, including that of its child processes
 };
 
-// Runs the program words[0], a path, with the words after it, and waits for its end. The child is ended if
-// this process ends first. The status is 127 if the program cannot be started. Throws rad::Error
-// (Status::system) if the process cannot be created.
+// Runs the program words[0], a path, with the remaining words as arguments, and waits for its end. The child
+// is terminated if this process ends first. The status is 127 if the program cannot be started. Throws
+// rad::Error (Status::system) if the process cannot be created.
 ChildResult runChild(const std::vector<std::string>& words, const MemoryFile& in, const MemoryFile& out);
 
 }  // namespace rsphere

@@ -5,10 +5,10 @@
 
 namespace rsphere {
 
-// Exit statuses of rsphere-compare. Every fault is `trouble`, as with cmp(1), except a signal (3).
+// Exit statuses of rsphere-compare. As with cmp(1), all errors are `trouble`, except a signal (3).
 enum class CompareStatus { same = 0, differs = 1, trouble = 2, undecided = 4 };
 
-// The options of rsphere-compare: those of rsphere, and its own.
+// The options of rsphere-compare: its own and those of rsphere.
 struct CompareOptions : Options {
   double tolerance = .01;     // -Ct
   double shareBeyond = .001;  // -Cs
@@ -19,8 +19,8 @@ struct CompareOptions : Options {
   std::string page;           // -Ch
 };
 
-// rsphere-compare, for parseCompanion() with a CompareOptions. It is in ray mode unless
-// -S switches to sphere mode.
+// Describes rsphere-compare for parseCompanion(), with CompareOptions. It uses ray mode unless -S selects
+// sphere mode.
 const Companion& compareCompanion();
 
 }  // namespace rsphere

@@ -32,7 +32,7 @@ std::string pngOf(const Raster& raster) {
   return bytes;
 }
 
-// The means of the repeats as a picture.
+// The mean over the repeats as a picture.
 std::string pngOf(const Answers& answers, const CompareSubject& subject, double exposure) {
   Raster raster{static_cast<int>(subject.width), static_cast<int>(subject.height), {}};
   for (size_t i = 0; i < answers.records; ++i) {
@@ -43,7 +43,7 @@ std::string pngOf(const Answers& answers, const CompareSubject& subject, double 
   return pngOf(raster);
 }
 
-// The factor by which the median of the original's pixels that are not black becomes middle grey.
+// The exposure at which the median of the original's pixels that are not black becomes middle grey.
 double exposureOf(const Answers& original) {
   std::vector<double> bright;
   for (size_t i = 0; i < original.records; ++i)
@@ -63,7 +63,7 @@ std::set<size_t> recordsDrawn(const Comparison& comparison) {
   return drawn;
 }
 
-// The table with a row for each of its columns.
+// The table with rows and columns exchanged.
 PageTable transposed(const PageTable& table) {
   PageTable result;
   result.head = {table.head.front()};
@@ -105,7 +105,7 @@ PageTable figuresTable(const Comparison& comparison, const CompareSubject& subje
       [](const Channel& c) { return percent(c.shareWithin); });
   row("Noise of one answer of rsphere, rms", [](const Channel& c) { return percent(c.ourNoise); });
   row("Noise of one answer of the original, rms", [](const Channel& c) { return percent(c.originalNoise); });
-  // The bands of a spectral run are too many for the width of a page.
+  // A spectral run has too many bands for the width of a page.
   return comparison.channels.size() > 3 ? transposed(table) : table;
 }
 
@@ -161,11 +161,12 @@ std::string comparePlot(const Answers& ours, const Answers& original, const Comp
     plot.line(ends, kInk, style);
   };
   diagonal(1, "");
-  // The difference is relative to the mean of both.
+  // Differences are relative to the mean of both programs.
   const double ratio = (1 + subject.tolerance / 2) / (1 - subject.tolerance / 2);
   diagonal(ratio, kDashes);
   diagonal(1 / ratio, kDashes);
-  for (const bool within : {true, false}) {  // those beyond it are drawn last, so that none hides them
+  for (const bool within : {true, false}) {  // marks beyond the tolerance are drawn last, so that none is
+                                             // hidden
     bool any = false;
     for (const Mark& mark : marks) {
       if (mark.within != within) continue;

@@ -28,10 +28,11 @@
 namespace rsphere {
 namespace {
 
-// The seed of a repeat. The first repeat has the seed of rsphere itself.
+// The seed of a repeat. The first repeat uses the seed that rsphere itself would use.
 uint64_t seedOfRepeat(uint64_t seed, size_t repeat) { return repeat == 0 ? seed : mixBits(seed + repeat); }
 
-// The rays without those whose direction is zero, which ask rtrace to flush and have no answer to compare.
+// Removes rays whose direction is zero: they only make rtrace flush its output, and have no answer to
+// compare.
 std::vector<double> withoutBogus(const std::vector<double>& rays) {
   std::vector<double> kept;
   for (size_t i = 0; i < rays.size(); i += 6)
@@ -74,7 +75,7 @@ Answers answerPoints(const Transport& transport, const CompareOptions& options,
   return answers;
 }
 
-// The colors that the original has written, of three numbers or as many as there are bands.
+// The colors in the original's output, with three numbers or one for each band.
 std::vector<Color> colorsOf(std::span<const double> numbers, const SpectralSampling* sampling) {
   std::vector<Color> colors;
   for (; !numbers.empty(); numbers = numbers.subspan(sampling ? sampling->count() : 3)) {
@@ -94,7 +95,8 @@ std::vector<Color> originalColors(Original& original, std::span<const double> ra
   return colorsOf(original.answers(rays, "v", sampling ? sampling->count() : 3), sampling);
 }
 
-// Runs the original once for all repeats: it draws different random numbers for equal records of a run.
+// Runs the original once for all repeats, because within a run it uses different random numbers for equal
+// records.
 Answers originalRays(Original& original, const CompareOptions& options, std::span<const double> rays) {
   const auto repeats = static_cast<size_t>(options.repeats);
   std::vector<double> all;
@@ -124,8 +126,8 @@ Answers originalPoints(Original& original, const CompareOptions& options, std::s
   return answers;
 }
 
-// The options of the original for the irradiance of planes. The gathering of the plane itself takes a bounce,
-// so that there is one more. A plane needs few rays, because there are many planes.
+// The original's options for the irradiance of planes. Gathering at the plane itself takes one bounce, so
+// that one is added. Each plane needs only a few rays, because there are many planes.
 std::vector<std::string> pointOptions(const Options& options, std::span<const UsedOption> used) {
   std::vector<std::string> words = originalOptions(options, used);
   const std::vector<std::string> more{
@@ -175,7 +177,7 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
   return text;
 }
 
-// Whether -x and -y give a picture of all records.
+// Whether -x and -y describe a picture of all records.
 bool formPicture(const CompareOptions& options, size_t records) {
   return options.width > 0 && options.height > 0 &&
          static_cast<size_t>(options.width * options.height) == records;
@@ -190,8 +192,8 @@ std::string givenLine(const CompareOptions& options, const std::string& recordsN
   return shellLine(words);
 }
 
-// The numbers of the records to compare. Throws rad::Error if there are none, or too few or
-// many for the picture of -Cp.
+// The numbers of the records to compare. Throws rad::Error if there are none, or if their number does not fit
+// the picture of -Cp.
 std::vector<double> recordsToCompare(const CompareOptions& options, const std::string& name) {
   std::vector<double> numbers = readRecords(name, options);
   if (!options.sphereMode) numbers = withoutBogus(numbers);

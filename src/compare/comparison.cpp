@@ -12,10 +12,10 @@
 namespace rsphere {
 namespace {
 
-// If no bias is certain, a bias above the tolerance is ruled out when its probability is below this.
+// If no bias is certain: a bias above the tolerance is ruled out if its probability is below this.
 constexpr double kUndecided = .05;
 
-using Values = std::vector<double>;  // one channel of Answers::values
+using Values = std::vector<double>;  // a single channel of Answers::values
 
 template <class F>
 Values valuesOf(const Answers& answers, const F& valueOf) {
@@ -62,9 +62,9 @@ std::vector<Pair> pairsOf(const Values& ours, const Values& original, size_t rec
   return pairs;
 }
 
-// The value that the differences of a record are relative to: the mean of both programs. If it were that of
-// one program alone, an outlier of this program would enlarge its scale too, and its noise would look
-// smaller than the other's.
+// The scale for the differences of a record: the mean of both programs. With the mean of one program, an
+// outlier of that program would also enlarge the scale, so that its noise would look smaller than the
+// other's.
 double scaleOf(const Pair& pair, double mean) {
   const double own = std::abs(pair.original.mean() + pair.ours.mean()) / 2;
   return std::max({own, kDarkest * std::abs(mean), 1e-300});
@@ -98,7 +98,7 @@ MeanError meanError(const std::vector<Pair>& pairs, const Values& ours, const Va
   return {differences.standardError(), repeats - 1};
 }
 
-// channels: the number of them that are compared.
+// channels: number of channels that are compared.
 ChannelComparison compareChannel(const Values& ours, const Values& original, size_t records, size_t channels,
                                  double tolerance, double shareBeyond, bool independent) {
   const std::vector<Pair> pairs = pairsOf(ours, original, records);
@@ -108,7 +108,7 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   c.originalMean = meanOf(pairs, &Pair::original);
   const double scale = c.originalMean != 0 ? std::abs(c.originalMean) : std::max(std::abs(c.ourMean), 1e-300);
   const MeanError error = meanError(pairs, ours, original, independent);
-  // The original computes with floats, so that its answers are rounded.
+  // The original computes in single precision, so its answers are rounded.
   constexpr double kRounding = 1e-6;
   const auto certain = [&](double excess, double standardError, size_t degrees, double count) {
     return excess > kRounding && chanceOf(excess, standardError, degrees) < kFalseAlarm / count;
@@ -121,7 +121,7 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   double squares = 0, noise = 0, ourNoise = 0, originalNoise = 0;
   for (const Pair& pair : pairs) {
     const double by = scaleOf(pair, c.originalMean), size = std::abs(pair.difference()) / by;
-    // Divided twice: the square of the scale of answers that are all 0 is 0.
+    // Divided twice, because the square of the scale underflows to 0 if all answers are 0.
     sizes.push_back(size);
     squares += size * size;
     noise += pair.variance() / by / by;

@@ -81,7 +81,7 @@ std::string equalErrorText(const Comparison& comparison, int orientations, doubl
   if (ours <= 0 || theirs <= 0) return "Equal error: one of them has no noise to go by.\n";
   const double ratio = theirs / ours;
   const double fewest = std::min(ratio, ratio * ratio), most = std::max(ratio, ratio * ratio);
-  constexpr double kLeast = 8, kMost = 1e6;  // of -Cn
+  constexpr double kLeast = 8, kMost = 1e6;  // limits of -Cn
   if (orientations * fewest > kMost)
     return fmt::format(
         "Equal error: more than the {:.0f} rays that -Cn allows; fewer directions of rsphere (-Sn, -Sx) "
@@ -104,7 +104,7 @@ std::string equalErrorText(const Comparison& comparison, int orientations, doubl
 
 std::vector<DifferenceClass> differenceClasses(std::span<const RecordDifference> records, double tolerance) {
   const double unit = tolerance > 0 ? tolerance : 1e-6;
-  constexpr std::array kEdges = {-8., -4., -2., -1., -.5, .5, 1., 2., 4., 8.};  // times the tolerance
+  constexpr std::array kEdges = {-8., -4., -2., -1., -.5, .5, 1., 2., 4., 8.};  // in units of the tolerance
   std::vector<DifferenceClass> classes(kEdges.size() + 1);
   for (size_t k = 0; k < classes.size(); ++k) {
     classes[k].low = k > 0 ? signedPercent(kEdges[k - 1] * unit) : "less";
@@ -132,7 +132,7 @@ std::string histogramText(std::span<const RecordDifference> records, double tole
 
 namespace {
 
-// colorOf(relative difference): three channels.
+// colorOf: converts a relative difference to three channels.
 Raster rasterOf(int64_t width, int64_t height, std::span<const RecordDifference> records,
                 const auto& colorOf) {
   Raster raster{static_cast<int>(width), static_cast<int>(height), {}};
@@ -146,7 +146,7 @@ Raster rasterOf(int64_t width, int64_t height, std::span<const RecordDifference>
 
 Raster differencesOnScreen(int64_t width, int64_t height, std::span<const RecordDifference> records,
                            double tolerance) {
-  constexpr double kFullColor = 10;  // tolerances
+  constexpr double kFullColor = 10;  // in units of the tolerance
   const double full = kFullColor * (tolerance > 0 ? tolerance : 1e-6);
   return rasterOf(width, height, records, [&](double difference) {
     const double pale = 1 - std::min(1., std::abs(difference) / full);

@@ -36,7 +36,7 @@ void setBins(Options& options, const OptionEntry&, Words words, std::string_view
   next.definitionsOfBins = next.definitions;
 }
 
-// A name with a quote behind it belongs to the function files of the scene, which are compiled apart.
+// A name followed by ` belongs to the function files of the scene, which are compiled separately.
 void setExpression(Options& options, const OptionEntry& entry, Words words, std::string_view) {
   if (words[0].find('`') != std::string::npos)
     commandLineError(entry.name, "definitions for the function files of the scene (name`) are not supported");
@@ -150,14 +150,15 @@ void addOutputs(const Add& add) {
            "of an uninterrupted run. Not with text, nor with -c 0."});
 }
 
-// What -features lists besides the features of all programs, in the words of RADIANCE's rcontrib.
+// The features that -features lists in addition to those of all programs, in the words of RADIANCE's
+// rcontrib.
 constexpr std::string_view kFeatures[] = {
     "Hyperspectral",    "ShadowCache",        "Multiprocessing",       "Accumulation",
     "Summation",        "Recovery",           "ImmediateIrradiance",   "ProgressReporting",
     "DistanceLimiting", "InputFormats=a,f,d", "OutputFormats=a,f,d,c", "Outputs=V,W",
     "OutputCS=RGB,spec"};
 
-// Options of sphere mode, of ray trees and of the contents of a record are none of rcontrib.
+// rcontrib has no options of sphere mode, of ray trees, or of the contents of records.
 bool takes(const OptionEntry& entry) {
   if (entry.name == "-Sr" || entry.name == "-Sc" || entry.name == "-cs" || entry.name == "-cw") return true;
   const bool refused = entry.group == Group::sphere || entry.group == Group::trees ||
@@ -166,10 +167,10 @@ bool takes(const OptionEntry& entry) {
   return !refused;
 }
 
-// More columns would take more memory than a machine has.
+// With more columns, a record would exceed the memory of any machine.
 constexpr double kMostBins = 1e9;
 
-// Empty if all of a modifier is in bin 0.
+// Empty if the whole modifier is in bin 0.
 std::optional<BinFunction> binOf(const TrackedName& tracked, BinFunctions& functions) {
   if (tracked.bin == "0") return std::nullopt;
   const BinFunction bin = functions.compile("-b", tracked.bin, tracked.definitions);

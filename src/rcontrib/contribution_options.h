@@ -7,35 +7,35 @@
 
 namespace rsphere {
 
-// A modifier that -m or -M names, with what the options before it say of its bins and its output.
+// A modifier named by -m or -M, with its bins and output as defined by the preceding options.
 struct TrackedName {
   std::string name;
   BinDefinitions definitions;          // -e -f -p
   std::string bin = "0";               // -b
   std::string bins;                    // -bn; empty: not given
-  BinDefinitions definitionsOfBins{};  // those before -bn, which is evaluated with them
+  BinDefinitions definitionsOfBins{};  // definitions before -bn, used to evaluate it
   std::string output{};                // -o; empty: standard output
 };
 
-// The options of rcontrib: those of rtrace that concern light, and its own.
+// The options of rcontrib: its own, and those of rtrace that affect light.
 struct ContributionOptions : Options {
-  std::vector<TrackedName> tracked;  // -m -M, in their order
-  TrackedName next;                  // what the next -m gets; without a name
-  int raysPerRecord = 1;             // -c  0: one record of all rays, their sum
+  std::vector<TrackedName> tracked;  // -m -M, in the order given
+  TrackedName next;                  // settings for the next -m, without a name
+  int raysPerRecord = 1;             // -c  0: a single record, the sum over all rays
   bool values = false;               // -V  values instead of coefficients
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
 };
 
-// The modifiers with their bins compiled. Throws rad::Error if a definition or an expression is wrong, or if
-// a number of bins is missing or is none.
+// The modifiers with their compiled bins. Throws rad::Error if a definition or an expression is invalid, or
+// if the number of bins is missing or invalid.
 std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options);
 
-// rcontrib, for parseCompanion() with a ContributionOptions.
+// Describes rcontrib for parseCompanion(), with ContributionOptions.
 const Companion& contributionCompanion();
 
-// Sets what the options together mean. Throws rad::Error if they contradict each other or leave nothing to be
-// tracked.
+// Completes options that depend on each other. Throws rad::Error if they contradict each other or name no
+// modifier.
 void finish(ContributionOptions& options);
 
 }  // namespace rsphere

@@ -19,7 +19,8 @@
 namespace rsphere {
 namespace {
 
-// Bytes that wait in all outputs together before they are written: a run may have thousands of pictures.
+// Number of bytes that are collected in all outputs together before they are written: a run may have
+// thousands of pictures.
 constexpr size_t kMostPending = size_t{16} << 20;
 
 [[noreturn]] void systemError(const std::string& name, std::string_view what) {
@@ -27,7 +28,7 @@ constexpr size_t kMostPending = size_t{16} << 20;
                    rad::Status::system);
 }
 
-// Each output of a run takes a descriptor.
+// Each output of a run takes a file descriptor.
 void allowDescriptors(size_t outputs) {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || outputs + 64 <= limit.rlim_cur) return;
@@ -35,7 +36,7 @@ void allowDescriptors(size_t outputs) {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-// The lines of a header about the records of an output.
+// The header lines that describe the records of an output.
 RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan, int components) {
   RecordLayout layout{components};
   const bool named = !plan.name.empty();
@@ -43,11 +44,10 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
   if (named && !plan.bin.empty()) layout.lines += fmt::format("BIN={}\n", plan.bin);
   if (options.height > 0)
     layout.lines += fmt::format("NROWS={}\n", options.height * std::max<int64_t>(options.width, 1));
-  // As in RADIANCE, only an output with one value for each pixel has a resolution: rmtxop and dctimestep
-  // read the records of the others as a matrix, right behind the header.
+  // As in RADIANCE, only an output with one value per pixel has a resolution. rmtxop and dctimestep read the
+  // records of any other output as a matrix, directly after the header.
   layout.resolution = options.width > 0 && options.height > 0 && plan.columnCount() == 1;
-  if (!layout.resolution)
-    layout.lines += fmt::format("NCOLS={}\n", plan.columnCount());
+  if (!layout.resolution) layout.lines += fmt::format("NCOLS={}\n", plan.columnCount());
   return layout;
 }
 
@@ -63,7 +63,7 @@ size_t recordBytes(const ContributionOptions& options, const OutputPlan& plan, s
   }
 }
 
-// Where the records of a file begin. Throws rad::Error if its header is not that of this run.
+// The offset of the records in a file. Throws rad::Error if its header differs from that of this run.
 size_t recordsBeginIn(const std::string& name, const std::string& bytes, const ContributionOptions& options,
                       const RecordLayout& layout) {
   size_t begin = 0;
@@ -97,7 +97,7 @@ class ContributionOutputs::Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  // Opens what is not completed.
+  // Opens an output that is written from the start.
   void open(const ContributionOptions& options) {
     if (plan.name.empty()) {
       descriptor_ = 1;
@@ -111,8 +111,8 @@ class ContributionOutputs::Output {
     writer = std::make_unique<RecordWriter>(descriptor_);
   }
 
-  // Opens a file that has records. Returns the number of them; nothing if there is no file, or none with a
-  // byte.
+  // Opens a file with records, to complete it. Returns their number; empty if the file does not exist or has
+  // no bytes.
   std::optional<uint64_t> openToComplete(const ContributionOptions& options, int components) {
     descriptor_ = ::open(plan.name.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor_ < 0 && errno == ENOENT) return std::nullopt;
@@ -131,7 +131,7 @@ class ContributionOutputs::Output {
     return (static_cast<size_t>(state.st_size) - begin_) / record_;
   }
 
-  // Goes on after so many records.
+  // Continues after this number of records.
   void completeAfter(uint64_t records) {
     const auto end = static_cast<off_t>(begin_ + records * record_);
     if (ftruncate(descriptor_, end) != 0 || lseek(descriptor_, end, SEEK_SET) < 0)
@@ -166,7 +166,7 @@ class ContributionOutputs::Output {
 
   int descriptor_ = -1;
   FILE* pipe_ = nullptr;
-  size_t begin_ = 0, record_ = 0;  // of a file that is completed
+  size_t begin_ = 0, record_ = 0;  // of a file that is being completed
 };
 
 ContributionOutputs::~ContributionOutputs() = default;
@@ -190,7 +190,7 @@ ContributionOutputs::ContributionOutputs(const ContributionOptions& options, con
     output->open(options);
     writeHeader(*output->writer, options, sceneHeader, now,
                 layoutOf(options, output->plan, tracked.components()));
-    output->writer->flush();  // a program that talks to this one may read the header before it sends a ray
+    output->writer->flush();  // a communicating program may read the header before it sends a ray
   }
   if (completed.size() < outputs_.size()) recovered_ = 0;
   for (Output* output : completed) output->completeAfter(recovered_);

@@ -10,26 +10,26 @@
 
 namespace rsphere {
 
-// The files, commands and standard output of a run.
+// All outputs of a run: files, commands and standard output.
 class ContributionOutputs {
  public:
-  // Opens them and writes their headers. With -r, files are completed after the last record that all of them
-  // have. sceneHeader: as for writeHeader(). Keeps a reference to the options. Throws rad::Error (mostly with
-  // Status::system) if a file exists and is neither to be overwritten nor completed, if it cannot be opened,
-  // or if it does not fit.
+  // Opens the outputs and writes their headers. With -r, files are completed after the last record that all
+  // of them contain. sceneHeader: as for writeHeader(). Keeps a reference to the options. Throws rad::Error
+  // (mostly with Status::system) if a file exists and may neither be overwritten nor completed, if it cannot
+  // be opened, or if its contents do not match this run.
   ContributionOutputs(const ContributionOptions& options, const Tracked& tracked,
                       std::span<const std::string> sceneHeader);
   ~ContributionOutputs();
 
-  // The number of records that the files had already.
+  // The number of records that the files already contained.
   uint64_t recovered() const { return recovered_; }
 
-  // Appends a record: sums of all columns, times factor. Throws as RecordWriter does.
+  // Appends a record: sums of all columns, multiplied by factor. Throws like RecordWriter.
   void write(std::span<const double> sums, double factor);
   void flush();
   void holdUntilFlush(bool hold);
 
-  // Flushes, and waits for commands. Throws rad::Error if one of them failed.
+  // Flushes all outputs, and waits for commands. Throws rad::Error if a command failed.
   void close();
 
  private:
@@ -39,7 +39,7 @@ class ContributionOutputs {
   const size_t components_;
   std::vector<std::unique_ptr<Output>> outputs_;
   uint64_t recovered_ = 0;
-  size_t pending_ = 0;  // bytes that may wait in the outputs
+  size_t pending_ = 0;  // bytes collected in the outputs
   bool holds_ = false;
   std::string bytes_;
 };

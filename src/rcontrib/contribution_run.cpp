@@ -19,7 +19,7 @@
 namespace rsphere {
 namespace {
 
-// -x and -y count records; runRecords() counts rays.
+// Converts -x and -y from numbers of records to numbers of rays, for runRecords().
 AnswerOptions pacedByRays(const ContributionOptions& options) {
   AnswerOptions paced = options;
   const int64_t rays = options.raysPerRecord;
@@ -34,7 +34,7 @@ AnswerOptions pacedByRays(const ContributionOptions& options) {
   return paced;
 }
 
-// traced: the index of the first ray that is traced; those before it were answered by an earlier run.
+// traced: index of the first ray to be traced; the rays before it were answered by an earlier run.
 AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers, const ContributionOptions& options,
                                  uint64_t traced) {
   return [&tracers, &options, traced](const Record& record, unsigned worker, std::string& bytes) {

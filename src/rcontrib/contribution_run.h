@@ -5,8 +5,8 @@
 
 namespace rsphere {
 
-// Answers the rays of standard input with contributions. The options are those of finish(). Throws what
-// loadScene(), Transport, Tracked, ContributionOutputs and runRecords() throw.
+// Answers the rays on standard input with contributions. REQUIRES: finish() was called for the options.
+// Throws the errors of loadScene(), Transport, Tracked, ContributionOutputs and runRecords().
 void runContributions(const ContributionOptions& options, const Messages& messages, StopSignals& signals);
 
 }  // namespace rsphere

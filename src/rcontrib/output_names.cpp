@@ -8,12 +8,12 @@
 namespace rsphere {
 namespace {
 
-// A -o: text, and what is put between.
+// The parsed value of -o: text, and parts to be inserted.
 struct Format {
   enum class Kind : uint8_t { text, modifier, number };
   struct Part {
     Kind kind;
-    std::string text;  // of a number: the digits between % and d
+    std::string text;  // for a number: the digits between % and d
   };
   std::vector<Part> parts;
 
@@ -52,7 +52,7 @@ Format formatOf(const std::string& spec) {
   return format;
 }
 
-// A number as printf's %d with a width writes it.
+// A number as printed by printf's %d with a width.
 std::string padded(uint64_t number, const std::string& digits) {
   std::string text = fmt::format("{}", number);
   const size_t width = digits.empty() ? 0 : static_cast<size_t>(std::stoi(digits));
@@ -112,7 +112,7 @@ class Planner {
   const bool pixels_, pictures_;
   std::vector<OutputPlan> plans_;
   std::map<std::string, size_t> byName_;
-  std::map<std::string, uint64_t> numbersBefore_;  // by -o: the numbers that pictures have taken
+  std::map<std::string, uint64_t> numbersBefore_;  // by -o: numbers already used for pictures
 };
 
 }  // namespace

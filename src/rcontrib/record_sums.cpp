@@ -5,7 +5,7 @@
 
 namespace rsphere {
 
-// The number of columns, the columns, and the numbers of each.
+// Format: the number of columns, the columns, and the values of each.
 void appendContributions(std::string& bytes, const ContributionList& list) {
   const auto count = static_cast<uint32_t>(list.columns().size());
   const auto append = [&bytes](const void* from, size_t size) {
@@ -31,7 +31,7 @@ void RecordSums::write(std::string_view bytes) {
   }
 }
 
-// Returns the number of bytes that the ray took.
+// Returns the number of bytes used by the ray.
 size_t RecordSums::addRay(std::string_view bytes) {
   uint32_t count = 0, column = 0;
   std::memcpy(&count, bytes.data(), sizeof count);

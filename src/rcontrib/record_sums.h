@@ -9,15 +9,16 @@
 
 namespace rsphere {
 
-// Appends what a ray contributes to `bytes`, as RecordSums reads it.
+// Appends the contributions of a ray to `bytes`, in the format that RecordSums reads.
 void appendContributions(std::string& bytes, const ContributionList& list);
 
-// Adds up the contributions of rays, in their order, into records. It holds the bins of one record, however
-// many threads trace rays: what they hand over is as long as the number of bins that a ray has reached.
+// Sums the contributions of rays, in their order, to records. It stores all bins of a single record,
+// regardless of the number of threads. The data passed by threads only contain the bins that a ray has
+// reached.
 class RecordSums final : public RecordSink {
  public:
-  // columns: of a record. rays: whose mean is a record; 0: a record is the sum of all. skipped: records whose
-  // rays count as none. Keeps a reference.
+  // columns: in a record. rays: a record is the mean over this number of rays; 0: it is the sum over all
+  // rays. skipped: number of records at the start that are not written. Keeps a reference.
   RecordSums(ContributionOutputs& outputs, size_t columns, size_t components, uint64_t rays,
              uint64_t skipped);
 
@@ -25,8 +26,8 @@ class RecordSums final : public RecordSink {
   void flush() override { outputs_.flush(); }
   void holdUntilFlush(bool hold) override { outputs_.holdUntilFlush(hold); }
 
-  // Writes the last record, if some of its rays are missing (the mean of those that are there), or if it is
-  // the sum. Returns the number of rays that are missing.
+  // Writes the last record, if it is the sum, or if some of its rays are missing (as the mean over the
+  // others). Returns the number of missing rays.
   uint64_t end();
 
  private:
@@ -38,7 +39,7 @@ class RecordSums final : public RecordSink {
   const uint64_t rays_;
   uint64_t skipped_;
   std::vector<double> sums_;
-  uint64_t added_ = 0;  // rays of the present record
+  uint64_t added_ = 0;  // rays in the current record
 };
 
 }  // namespace rsphere

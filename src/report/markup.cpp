@@ -7,9 +7,9 @@
 namespace rsphere {
 namespace {
 
-// The number of bytes of the UTF-8 character that `text` begins with; 0 if it does not begin with one that
-// XML allows. Overlong forms, surrogates and numbers above U+10FFFF are none (RFC 3629, section 4); XML 1.0
-// excludes U+FFFE and U+FFFF.
+// The number of bytes of the UTF-8 character at the start of `text`; 0 if there is none, or if XML does not
+// allow it. Overlong forms, surrogates and numbers above U+10FFFF are not characters (RFC 3629, section 4);
+// XML 1.0 excludes U+FFFE and U+FFFF.
 size_t characterLength(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const auto within = [&](size_t i, unsigned low, unsigned high) {

@@ -1,23 +1,23 @@
 #pragma once
-// Text for places with a syntax of their own: HTML and SVG, data URIs, and command lines.
+// Escapes text for formats with special characters: HTML and SVG, data URIs, and command lines.
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace rsphere {
 
-// Text as the content of an element or the value of a quoted attribute, in HTML and in XML. What neither may
-// contain (bytes that are not UTF-8, control characters except tab and line feed, U+FFFE and U+FFFF) becomes
-// U+FFFD.
+// Text as the content of an element or the value of a quoted attribute, in HTML and in XML. Anything not
+// allowed in either (bytes that are not UTF-8, control characters except tab and line feed, U+FFFE and
+// U+FFFF) becomes U+FFFD.
 std::string escaped(std::string_view text);
 
 // "data:image/png;base64,..." for the bytes of a PNG file.
 std::string pngUri(std::string_view bytes);
 
-// A word as a POSIX shell reads it: in single quotes unless all of its characters are ordinary.
+// A word quoted for a POSIX shell: in single quotes unless all of its characters are ordinary.
 std::string shellWord(std::string_view word);
 
-// A command line of such words, with blanks between them.
+// A command line of such words, separated by blanks.
 std::string shellLine(std::span<const std::string> words);
 
 }  // namespace rsphere

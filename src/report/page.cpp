@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// Without < and &, which would need other escapes in HTML than in XML.
+// Contains no < and &, because HTML and XML would need different escapes.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1d2229; --soft: #58616d; --line: #d9dee4;
   --tint: #eef5fc; --code: #f4f6f8; --good: #1a7f37; --open: #9a6700; --bad: #c62828; --mark: #c2185b; }
@@ -62,8 +62,7 @@ figcaption { color: var(--soft); font-size: .87rem; }
   * { print-color-adjust: exact; } }
 )";
 
-// Text whose lines may break between an option and the next one, but neither within an option nor before its
-// value.
+// Text that may be broken before an option, but neither within an option nor between an option and its value.
 std::string withOptionsWhole(std::string_view text) {
   std::string out;
   while (!text.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
-// Reports as a web page: one file with everything in it, without scripts. Pages use light or dark colors as
-// the reader's system does, and can be printed.
+// Reports as a web page: a single self-contained file, without scripts. Pages follow the reader's system in
+// using light or dark colors, and are printable.
 #include <ctime>
 #include <span>
 #include <string>
@@ -13,12 +13,13 @@ namespace rsphere {
 struct PageTable {
   struct Row {
     std::vector<std::string> cells;
-    bool chosen = false;  // is emphasized
+    bool chosen = false;  // whether it is emphasized
   };
   std::vector<std::string> head;
   std::vector<Row> rows;
-  size_t textColumns = 1;   // at the left; the other columns are numbers, which are aligned at the right
-  bool lastIsText = false;  // so is the last column
+  size_t textColumns = 1;   // number of text columns at the left; the other columns are numbers, aligned at
+                            // the right
+  bool lastIsText = false;  // whether the last column is text, too
 };
 
 struct PagePicture {
@@ -27,10 +28,10 @@ struct PagePicture {
 
 enum class Tone { good, open, bad };
 
-// All text is plain text, which the functions escape; `svg` alone is markup.
+// All arguments are plain text, which is escaped here, except `svg`, which is markup.
 class Page {
  public:
-  // title: also that of the window. above: a line of small text above it.
+  // title: also of the window. above: small text on a line above the title.
   Page(std::string title, std::string above);
 
   void heading(std::string_view text);
@@ -40,17 +41,17 @@ class Page {
   void banner(Tone tone, std::string_view text);
   // A command line to be copied.
   void command(std::string_view line);
-  // Lines of fixed pitch.
+  // Lines in a fixed-pitch font.
   void lines(std::string_view text);
-  // Names and values, a pair for each line.
+  // Names and values, one pair per line.
   void facts(const std::vector<std::pair<std::string, std::string>>& pairs);
   void table(const PageTable& table);
-  // folded: is shown when the reader opens it.
+  // The table is hidden until the reader opens it.
   void foldedTable(std::string_view summary, const PageTable& table);
   void figure(const std::string& svg, std::string_view caption);
   void pictures(std::span<const PagePicture> pictures);
 
-  // The page, which is well-formed as XML too.
+  // The page as HTML that is also well-formed XML.
   std::string html() const;
 
  private:
@@ -60,7 +61,7 @@ class Page {
 // A moment in local time, with the name of its zone: "2026-11-23 14:05 CET".
 std::string dateAndTime(std::time_t when);
 
-// Writes a file. Throws rad::Error (Status::system), with its name, if it cannot be written.
+// Writes a file. Throws rad::Error (Status::system) with its name if it cannot be written.
 void writeTextFile(const std::string& name, std::string_view text);
 
 }  // namespace rsphere

@@ -13,11 +13,11 @@
 namespace rsphere {
 namespace {
 
-// In pixels of the viewBox.
+// In units of the viewBox.
 constexpr double kWidth = 720, kPlotHeight = 385, kLeft = 74, kRight = 20, kTitleHeight = 36, kBelow = 56;
 constexpr double kRow = 18;  // of a legend
 constexpr double kTop = kTitleHeight, kBottom = kTop + kPlotHeight;
-// The margin beside the values, as a factor.
+// Factor by which the axes extend beyond the values.
 constexpr double kMargin = 1.3;
 
 std::string start(double height, const std::string& title) {
@@ -57,7 +57,7 @@ std::vector<double> LogAxis::ticks() const {
   constexpr size_t kFewest = 3, kMost = 12;
   const int first = static_cast<int>(std::floor(std::log10(low))),
             last = static_cast<int>(std::ceil(std::log10(high)));
-  // Every power of ten, or each second, third and so on if there are many.
+  // Every power of ten; if there are many, every second, third and so on.
   const int step = 1 + (last - first) / static_cast<int>(kMost);
   const auto ticksWith = [&](std::span<const double> digits) {
     std::vector<double> found;
@@ -75,7 +75,7 @@ std::vector<double> LogAxis::ticks() const {
   std::vector<double> best = ticksWith(kUsual);
   if (best.size() > kMost) return ticksWith(kCoarse);
   if (best.size() < kFewest) best = ticksWith(kFine);
-  // Less than a factor 2 or so: even steps, which are also even on the axis, nearly.
+  // For ranges below a factor of about 2: even steps, which are nearly even on the logarithmic axis.
   for (int power = last; best.size() < kFewest; --power)
     for (const double digit : {5., 2., 1.})
       if (best.size() < kFewest) best = multiples(digit * std::pow(10., power), low, high);
@@ -140,7 +140,7 @@ std::string Plot::svg() const {
                      (kLeft + kWidth - kRight) / 2, kBottom + 38, escaped(xText_.title));
   svg += fmt::format("<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                      (kTop + kBottom) / 2, escaped(yText_.title));
-  // An inner svg element draws nothing outside its box.
+  // An inner svg element clips everything outside its box.
   svg += fmt::format(
       "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n{4}"
       "</svg>\n{5}",

@@ -1,6 +1,6 @@
 #pragma once
-// Diagrams as SVG. A file of its own, a plot is black on white. In a page (page.h) it takes the colors of
-// the page, whose style sheet overrides those of the elements by their classes.
+// Diagrams as SVG. In a separate file, a diagram is black on white. In a page (page.h) it has the page's
+// colors, because the style sheet of the page overrides colors of elements by class.
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,22 +8,22 @@
 
 namespace rsphere {
 
-// The color of lines that belong to the text. A page replaces it by its own.
+// The color of lines that accompany text. Pages replace it.
 inline constexpr std::string_view kInk = "#333333";
 
 struct PlotPoint {
   double x = 0, y = 0;
 };
 
-// Values from `low` to `high` (above 0) at pixels from `from` to `to`, by their logarithms.
+// Maps values from `low` to `high` (above 0) to pixels from `from` to `to`, logarithmically.
 struct LogAxis {
   double low = 1, high = 10, from = 0, to = 1;
   double at(double value) const;
-  // From 3 to 12 round values; fewer where the ends are too close for 3 values of two digits.
+  // 3 to 12 round values; fewer if the ends are too close for 3 values of two digits.
   std::vector<double> ticks() const;
 };
 
-// What is written beside an axis: a title, and values multiplied by `factor` and followed by `unit`.
+// The text beside an axis: a title, and values that are multiplied by `factor` and followed by `unit`.
 struct AxisText {
   std::string title;
   double factor = 1;
@@ -33,7 +33,7 @@ struct AxisText {
 // A plot with logarithmic axes.
 class Plot {
  public:
-  // The axes contain all values of `extent`, with a margin. sameScale: both axes have the same ends.
+  // The axes contain all values of `extent`, with a margin. sameScale: both axes have the same range.
   // REQUIRES: extent is not empty, and its values are above 0 and finite.
   Plot(std::string title, std::span<const PlotPoint> extent, AxisText x, AxisText y, bool sameScale = false);
 
@@ -41,15 +41,16 @@ class Plot {
   double xLow() const { return x_.low; }
   double xHigh() const { return x_.high; }
 
-  // Lines may leave the plot; what is outside is not drawn. style: more attributes, as "stroke-dasharray".
+  // Lines may extend beyond the plot; they are clipped. style: further attributes, such as
+  // "stroke-dasharray".
   void line(std::span<const PlotPoint> points, std::string_view color, std::string_view style = {});
-  // A disc. hint: text that a browser shows when the pointer rests on it.
+  // A disc. hint: text that a browser shows while the pointer is on it.
   void mark(const PlotPoint& at, double radius, std::string_view color, std::string_view hint = {});
   // A ring around a disc.
   void ring(const PlotPoint& at, std::string_view color);
 
   enum class Key { disc, ring, line };
-  // style: that of the line.
+  // style: of the line.
   void legend(Key key, std::string_view color, std::string text, std::string_view style = {});
 
   std::string svg() const;
@@ -66,7 +67,7 @@ class Plot {
   std::vector<Entry> legend_;
 };
 
-// A diagram of bars, one below the other: the text of each, and its value.
+// A bar diagram, with bars one below the other: the text and the value of each.
 struct Bar {
   std::string text;
   double value = 0;  // 0 or more
@@ -74,8 +75,8 @@ struct Bar {
 };
 std::string barsSvg(const std::string& title, std::span<const Bar> bars);
 
-// Throws rad::Error if the name that an option gives to a file with a diagram has the extension of another
-// format than SVG: programs would open the file as one of that format. what: the diagram, as "the plot".
+// Throws rad::Error if an option gives a file for a diagram a name with the extension of another format than
+// SVG, because programs would open it in that format. what: the diagram, such as "the plot".
 void requireSvgName(std::string_view option, const std::string& name, std::string_view what);
 
 }  // namespace rsphere

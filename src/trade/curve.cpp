@@ -8,7 +8,7 @@
 namespace rsphere {
 namespace {
 
-// Statistics of the repeats, each represented by the mean of valueOf() over all points.
+// Statistics over repeats, each of which is represented by the mean of valueOf() over all points.
 Spread meansOfRepeats(const RepeatedAnswers& answers, const auto& valueOf) {
   Spread means;
   for (size_t r = 0; r < answers.repeats(); ++r) {
@@ -57,11 +57,11 @@ Figures figuresOf(const Trial& trial, const Reference& reference) {
   }
   const auto count = static_cast<double>(answers.values.size());
   const double found = squares / count, ofReference = reference.error() * reference.error();
-  // Differences as small as the rounding of the reference's sum are no errors.
+  // Differences as small as rounding of the reference's sum are not errors.
   constexpr double kRounding = 1e-24;
   f.rms = std::sqrt(std::max(0., found - ofReference));
   f.limited = ofReference > found / 4 && found > kRounding;
-  // If the reference limits the accuracy, the whole difference may be the error of the setting.
+  // If the error of the reference dominates, the whole difference may be the error of the setting.
   constexpr double kSure = 1.645;
   f.rmsAtMost = (f.limited ? std::sqrt(found) : f.rms) * (1 + kSure / std::sqrt(2 * count));
   const Spread means = meansOfRepeats(answers, error);

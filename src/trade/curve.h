@@ -1,5 +1,5 @@
 #pragma once
-// Speed and accuracy of settings, computed from their answers and those of a reference.
+// Speed and accuracy of settings, computed from their answers and from those of a reference.
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace rsphere {
 
-// Answers (brightness of the mean radiance). Those to all points in repeat r are at [r *
-// points, (r + 1) * points).
+// Answers (brightness of the mean radiance). The answers to all points in repeat r are at [r * points, (r +
+// 1) * points).
 struct RepeatedAnswers {
   size_t points = 0;
   std::vector<double> values;
@@ -17,14 +17,14 @@ struct RepeatedAnswers {
 };
 
 // Means of the points over many repeats. Relative errors of a point refer to scale(): the mean of the point,
-// or kDarkestPoint times the mean over all points where this is larger.
+// or kDarkestPoint times the mean over all points if that is larger.
 class Reference {
  public:
   explicit Reference(const RepeatedAnswers& answers);
 
   double mean(size_t point) const { return means_[point]; }
   double scale(size_t point) const { return scales_[point]; }
-  // Relative standard errors: the root mean square over the points, and that of the mean over the points.
+  // Relative standard errors: rms over the points, and that of the mean over the points.
   double error() const { return error_; }
   double meanError() const { return meanError_; }
   size_t points() const { return means_.size(); }
@@ -43,38 +43,39 @@ inline constexpr double kDarkestPoint = .01;
 struct Trial {
   std::vector<std::string> words;  // its options
   RepeatedAnswers answers;
-  std::vector<double> estimates;  // standard errors that it estimates; that at i is of point i % points
-  size_t timed = 0;               // number of answers; `seconds` and `directions` are means over them
-  double seconds = 0;             // CPU time for a point, without its error estimate unless -Sa needs it
+  std::vector<double> estimates;  // standard errors estimated by the setting; number i is of point i % points
+  size_t timed = 0;               // number of answers over which `seconds` and `directions` are means
+  double seconds = 0;             // CPU time for a point, without the error estimate unless -Sa needs it
   double setupSeconds = 0;        // CPU time before the first point
-  double directions = 0;          // for a point
+  double directions = 0;          // number of directions for a point
 };
 
 // All errors are relative to the reference.
 struct Figures {
   std::vector<std::string> words;
   double seconds = 0, setupSeconds = 0, directions = 0;
-  double rms = 0;                  // of the errors of answers, without that of the reference
-  double rmsAtMost = 0;            // upper limit of rms, with a confidence of 95%
+  double rms = 0;                  // rms error of answers, without the error of the reference
+  double rmsAtMost = 0;            // upper limit of rms at 95% confidence
   double largest = 0;              // largest error
   double bias = 0, biasError = 0;  // mean error, and its standard error
   bool biased = false;             // whether the bias is significant (99%)
-  double estimated = 0;            // rms of the standard errors that the setting estimates
-  bool limited = false;  // the error of the reference is over half of that found, so that rms is uncertain
-  bool best = false;     // no other setting is both as fast and as accurate
+  double estimated = 0;            // rms of the standard errors estimated by the setting
+  bool limited = false;  // whether the error of the reference is over half of the difference found, so that
+                         // rms is uncertain
+  bool best = false;     // whether no other setting is both as fast and as accurate
 };
 
-// REQUIRES: the trial has at least one repeat, of the points of the reference.
+// REQUIRES: the trial has at least one repeat of the points of the reference.
 Figures figuresOf(const Trial& trial, const Reference& reference);
 
-// Sets Figures::best of each.
+// Sets Figures::best for each setting.
 void markBest(std::vector<Figures>& all);
 
 // The index of the fastest setting whose rmsAtMost is within the accuracy; empty if there is none.
 std::optional<size_t> cheapest(std::span<const Figures> all, double accuracy);
 
-// The setting to recommend: the cheapest(); if there is none, the one with the least rms, and `sure` is
-// false. REQUIRES: there is a setting.
+// The recommended setting: cheapest() or, if there is none, the one with the smallest rms; `sure` is then
+// false. REQUIRES: there is at least one setting.
 struct Recommendation {
   size_t index = 0;
   bool sure = false;

@@ -19,7 +19,7 @@ std::vector<std::string> wordsOf(const std::string& line) {
   return words;
 }
 
-// -Sx is twice -Sn, as it is by default.
+// -Sx is twice -Sn, like its default.
 std::string directions(char weights, int base) {
   return fmt::format("-Sw {} -Sn {} -Sx {}", weights, base, 2 * base);
 }

@@ -11,7 +11,7 @@ namespace rsphere {
 namespace {
 
 constexpr double kMinute = 60;
-// With fewer degrees of freedom, the estimate of the error is usually wrong by more than a third.
+// With fewer degrees of freedom, the estimated error is usually wrong by more than a third.
 constexpr double kLeastDegrees = 4;
 
 double rotationsNeeded(const ReferenceProgress& p) {
@@ -22,7 +22,7 @@ double rotationsNeeded(const ReferenceProgress& p) {
 
 double secondsOfOne(const ReferenceProgress& p) { return p.seconds / p.rotations; }
 
-// Rounded up to two digits, so that the bound can be met.
+// Rounded up to two digits, so that the error can be reached.
 double roundedUp(double x) {
   const double unit = std::pow(10., std::floor(std::log10(x)) - 1);
   return std::ceil(x / unit - 1e-9) * unit;

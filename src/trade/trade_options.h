@@ -5,11 +5,11 @@
 
 namespace rsphere {
 
-// The options of rsphere-trade: those of rsphere, and its own.
+// The options of rsphere-trade: its own and those of rsphere.
 struct TradeOptions : Options {
   int repeats = 4;            // -Tr
   int mostPoints = 32;        // -Tm
-  double referenceError = 0;  // -Te  0: a tenth of the accuracy asked for
+  double referenceError = 0;  // -Te  0: a tenth of the requested accuracy
   bool bounces = false;       // -Tb
   std::string ladder;         // -Tl
   std::string table;          // -Tc
@@ -17,7 +17,7 @@ struct TradeOptions : Options {
   std::string page;           // -Th
 };
 
-// rsphere-trade, for parseCompanion() with a TradeOptions.
+// Describes rsphere-trade for parseCompanion(), with TradeOptions.
 const Companion& tradeCompanion();
 
 }  // namespace rsphere

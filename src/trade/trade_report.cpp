@@ -28,9 +28,9 @@ std::string milliseconds(double seconds) {
   return fmt::format("{:.{}f}", 1e3 * seconds, seconds < .01 ? 2 : 1);
 }
 
-// The ratio of the measured error to the one that the setting estimates; 0 if it estimates none.
+// The ratio of the measured error to the error estimated by the setting; 0 without an estimate.
 double dishonesty(const Figures& f) { return f.estimated > 0 ? f.rms / f.estimated : 0; }
-constexpr double kDishonest = 1.5;  // from here on, the estimate counts as too small
+constexpr double kDishonest = 1.5;  // ratio from which the estimate is regarded as too small
 
 struct Series {
   std::string_view name, color;

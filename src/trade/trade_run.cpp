@@ -28,15 +28,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rotations of the reference begin here and those of settings at 1, so that no rotation is used by both.
+// Rotations of the reference start here and those of settings at 1, so that they are always different.
 constexpr uint64_t kReferenceRotation = uint64_t{1} << 30;
-// Limits of the rotations of the reference: with fewer its error is not known, and more would take too long.
+// Limits on the rotations of the reference: with fewer its error is unknown, and more would take too long.
 constexpr size_t kLeastRotations = 8, kMostRotations = 100000;
-// Minimum number of answers of each setting whose estimated errors are collected.
+// Minimum number of answers of each setting for which estimated errors are collected.
 constexpr size_t kEstimates = 8;
 constexpr double kUsualAccuracy = .01;
-// If a signal ends the measurement of a setting early, it is reported only with this many repeats, which
-// suffice to estimate its bias.
+// If a signal ends the measurement of a setting early, it is reported only if it has this number of repeats,
+// which is sufficient to estimate its bias.
 constexpr size_t kLeastRepeats = 2;
 
 std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
@@ -49,12 +49,12 @@ std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
   return points;
 }
 
-// What has been measured so far: whenever a signal comes, it is reported.
+// All measurements, which are reported if a signal arrives.
 struct Measured {
   std::optional<Reference> reference;  // empty before its first rotation
   bool referenceIsDone = false;
-  std::vector<Figures> settings;  // those measured
-  Trial last;                     // the repeats of the setting in work
+  std::vector<Figures> settings;  // measured settings
+  Trial last;                     // repeats of the setting in progress
 };
 
 class Trade {
@@ -67,7 +67,7 @@ class Trade {
 
  private:
   Setting settingOf(std::span<const std::string> words) const;
-  // False after a signal; `trial` then has the repeats that were finished.
+  // Returns false after a signal; `trial` then contains the finished repeats.
   bool measure(std::span<const std::string> words, const Setting& given, Trials& trials, Trial& trial) const;
   bool makeReference(Trials& trials, double target, Measured& measured) const;
   void measureAll(std::span<const std::vector<std::string>> words, std::span<const Setting> settings,
@@ -84,10 +84,10 @@ class Trade {
   const Messages& messages_;
   StopSignals& signals_;
   size_t pointsInFile_ = 0;
-  std::vector<double> points_;  // those measured
+  std::vector<double> points_;  // measured points
 };
 
-// The options of the command line, followed by those of the setting, which override them.
+// The options of the command line, overridden by those of the setting.
 Setting Trade::settingOf(std::span<const std::string> words) const {
   std::vector<std::string> line{options_.program};
   line.insert(line.end(), options_.words.begin(), options_.words.end());
@@ -132,7 +132,7 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
   return whole;
 }
 
-// False after a signal.
+// Returns false after a signal.
 bool Trade::makeReference(Trials& trials, double target, Measured& measured) const {
   Setting setting = settingOf(referenceWords());
   Trial trial;
@@ -144,7 +144,7 @@ bool Trade::makeReference(Trials& trials, double target, Measured& measured) con
   at.moreThreads = threads < threadCount(0);
   const auto start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  double said = 0;  // the time that the last warning predicted
+  double said = 0;  // total time predicted by the last warning
   const auto saySlow = [&] {
     const double whole = at.seconds + secondsLeft(at);
     const std::string slow = slowReference(at);
@@ -153,7 +153,7 @@ bool Trade::makeReference(Trials& trials, double target, Measured& measured) con
     said = whole;
   };
   std::mutex mutex;
-  size_t answered = 0;  // points of the first rotation
+  size_t answered = 0;  // answered points of the first rotation
   const auto firstPoints = [&] {
     const std::lock_guard lock(mutex);
     ++answered;
@@ -184,7 +184,7 @@ void Trade::progress(const std::string& text) const {
   if (options_.progressSeconds > 0 || isatty(2) == 1) messages_.report(text);
 }
 
-// A command line of rsphere with the options given and those of the setting, which replace options given.
+// A command line of rsphere with the given options, overridden by those of the setting.
 std::string Trade::pasteLine(std::span<const std::string> words) const {
   std::vector<std::string> line{"rsphere"};
   for (const UsedOption& option : used_) {
@@ -207,7 +207,7 @@ std::string Trade::givenLine() const {
   return shellLine(words);
 }
 
-// repeatsOfLast: the number of repeats of the last setting if a signal ended it early; else 0.
+// repeatsOfLast: number of repeats of the last setting if a signal ended it early; otherwise 0.
 void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const Reference& reference,
                    double accuracy) const {
   std::string text = fmt::format(
@@ -240,8 +240,7 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
                         100 * accuracy, 100 * chosen.rmsAtMost, subject.command)
           : fmt::format("\nNone is sure to have an rms error of {:g}%; the nearest, with {:.3f}%:\n  {}\n",
                         100 * accuracy, 100 * chosen.rms, subject.command);
-  // If one of the outputs fails, the others are written nevertheless, because
-  // measuring again would take long.
+  // If one of the outputs fails, the others are still written, because measuring again would take long.
   std::exception_ptr fault;
   const auto attempt = [&fault](const auto& write) {
     try {
@@ -317,7 +316,7 @@ void Trade::measureAll(std::span<const std::vector<std::string>> words, std::spa
   }
 }
 
-// Reports what was measured. Throws rad::Error (Status::signal) if a signal has ended the measurement.
+// Reports the measurements. Throws rad::Error (Status::signal) if a signal ended them.
 void Trade::conclude(Measured measured, double accuracy) const {
   if (!measured.referenceIsDone)
     messages_.warning(fmt::format("no setting has been measured yet: the reference had {} rotations",

@@ -7,7 +7,7 @@
 
 namespace rsphere {
 
-// A Transport contains Embree's tree of all surfaces, which is large. Settings share it where possible.
+// A Transport contains Embree's tree of all surfaces, which is large. Settings share it if possible.
 const Transport& Trials::transportOf(const Setting& setting) {
   auto& transport = transports_[setting.rays];
   if (!transport)
