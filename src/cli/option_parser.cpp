@@ -23,7 +23,7 @@
 namespace rsphere {
 namespace {
 
-// As in rtrace(1). The limit also ends the expansion of a file that names itself.
+// As in rtrace(1). The limit also stops the expansion of a file that refers to itself.
 constexpr size_t kMostExpanded = 4096;
 
 struct Use {
@@ -36,7 +36,7 @@ const Companion kNoCompanion;
 
 std::vector<std::string> splitWords(std::istream& in) { return {std::istream_iterator<std::string>(in), {}}; }
 
-// The words of a command line and a position among them, at which @file and $VARIABLE are expanded.
+// The words of a command line, and a position at which @file and $VARIABLE are expanded.
 class Words {
  public:
   explicit Words(std::span<const std::string> words) : words_(words.begin(), words.end()) {}
@@ -48,7 +48,7 @@ class Words {
   std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
   std::span<const std::string> before() const { return std::span(words_).first(at_); }
 
-  // Expands @file and $VARIABLE at this position, and in turn the first word of the result.
+  // Expands @file or $VARIABLE at this position, and then the first word of the result in the same way.
   void expand() {
     while (!atEnd() && !word().empty() && (word()[0] == '@' || word()[0] == '$')) {
       const std::string name = word();
@@ -67,7 +67,7 @@ class Words {
     std::ifstream file(name.substr(1));
     std::vector<std::string> words;
     if (file) {
-      // An endless device exceeds the limits on the number and length of words.
+      // Reading an endless device ends at the limits on the number and length of words.
       for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
         if (word.size() > kLongestWord)
           throw rad::Error(fmt::format("cannot expand '{}': a word is too long", name));
@@ -94,8 +94,8 @@ class Words {
 
 bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
 
-// The option that a word names: the whole word, or else a switch with its state, or else a name with its
-// value glued to it. Null if there is none. takes: Companion::takes.
+// The option named by a word: the whole word or, if there is none, a switch with its state or a name followed
+// directly by its value. Null if there is no such option. takes: Companion::takes.
 const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word,
                               bool (*takes)(const OptionEntry&) = nullptr) {
   const auto isTaken = [&](const OptionEntry& entry) { return !takes || takes(entry); };
@@ -113,7 +113,7 @@ const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_vi
   return found;
 }
 
-// Whether rtrace accepts the word as an argument: it has visible characters and no control characters.
+// Whether rtrace accepts the word as an argument: it contains visible characters and no control characters.
 bool isWord(const std::string& word) {
   bool seen = false;
   for (const char c : word) {
@@ -124,7 +124,7 @@ bool isWord(const std::string& word) {
   return seen;
 }
 
-// " from 1 to 1000000" or the like; empty if the numbers of an option have no bounds.
+// " from 1 to 1000000" or similar; empty if the numbers of an option are unlimited.
 std::string rangeText(const Range& range) {
   const auto isBound = [](double x) { return std::abs(x) < std::numeric_limits<int>::max(); };
   if (isBound(range.lowest) && isBound(range.highest))
@@ -132,7 +132,7 @@ std::string rangeText(const Range& range) {
   return isBound(range.lowest) ? fmt::format(" of at least {}", range.lowest) : "";
 }
 
-// The remedy for a percentage that was given as a number, as the end of a message.
+// The advice to write a percentage as a fraction, as the end of a message.
 std::string percent(double x) { return fmt::format(": {}% is written {}", x, x / 100); }
 
 void checkRange(const OptionEntry& entry, double x) {
@@ -158,7 +158,8 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   return *n;
 }
 
-// Whether a value of the option is missing at this word: a blank one, or an option where a number should be.
+// Whether this word cannot be a value of the option: it is blank, or it is an option where a number is
+// expected.
 bool isMissing(const OptionEntry& entry, const std::string& word) {
   if (!isWord(word)) return true;
   const bool takesNumbers =
@@ -167,8 +168,8 @@ bool isMissing(const OptionEntry& entry, const std::string& word) {
   return takesNumbers && !rad::parseReal(word) && findOption(optionTable(), word) != nullptr;
 }
 
-// Throws the error of an option that lacks words: after `found` of them comes `next`, which is none of its
-// values, or, if that is null, the end of the command line.
+// Throws the error of missing values: only `found` values of the option were given. next: the following word,
+// which is not a value; null: the command line ends.
 [[noreturn]] void missingWords(const std::string& given, const OptionEntry& entry, size_t found,
                                const std::string* next) {
   const int wanted = arity(entry);
@@ -184,7 +185,7 @@ bool isMissing(const OptionEntry& entry, const std::string& word) {
                                       static_cast<size_t>(wanted) - found, wanted, use, why));
 }
 
-// The options for the colors of the output, as the end of a message.
+// The options for output colors, as the end of a message.
 std::string colorOutputs() {
   std::string names;
   for (const OptionEntry& entry : optionTable())
@@ -193,13 +194,13 @@ std::string colorOutputs() {
   return fmt::format("; the colors of the output are {}; -pY is luminance, or illuminance in lux", names);
 }
 
-// The option of a companion, or the one of rsphere that the companion takes, that a word names.
+// The option named by a word: an option of the companion, or of rsphere if the companion accepts it.
 const OptionEntry* findOption(const Companion& companion, std::string_view word) {
   const OptionEntry* entry = findOption(companion.own, word);
   return entry ? entry : findOption(optionTable(), word, companion.takes);
 }
 
-// The reason why a word that begins with a hyphen names no option.
+// The reason why a word that begins with a hyphen is not an option.
 std::string whyUnknown(const Companion& companion, std::string_view word) {
   if (startsWith(word, "--") && findOption(companion, word.substr(1)) != nullptr)
     return fmt::format("options begin with one hyphen: {}", word.substr(1));
@@ -240,8 +241,8 @@ void apply(const Use& use, Options& options) {
   std::visit(Set{use, entry, options}, entry.value);
 }
 
-// Separates the letters of the record from those of its tree in ray mode: the first begin the letters, the
-// second follow the last t or T. A t or T at the end has no effect.
+// Separates the letters for the record from those for its tree, in ray mode: the former precede the first t
+// or T, the latter follow the last one. A t or T at the end has no effect.
 void splitTree(Options& options) {
   std::string letters = options.outputs;
   if (options.sphereMode || letters.find_first_of("tT") == std::string::npos) return;
@@ -252,7 +253,7 @@ void splitTree(Options& options) {
     options.treeOutputs = letters.substr(tree + 1);
 }
 
-// The letters of -o with -Su.
+// Checks the letters of -o with -Su.
 void checkGlareLetters(const Options& options) {
   const std::string_view known = options.sphere.everyDirection ? "iodlLwWps" : "oduUvVbBgGnt";
   for (const char letter : options.outputs)
@@ -263,7 +264,7 @@ void checkGlareLetters(const Options& options) {
     commandLineError("-Su", "indices of glare are no colors: not with -fac");
 }
 
-// Throws rad::Error if a letter of -o does not belong to the mode or to the format of the output.
+// Throws rad::Error if a letter of -o does not belong to the mode or to the output format.
 void checkLetters(const Options& options) {
   if (options.sphereMode && options.sphere.glare.wanted) return checkGlareLetters(options);
   const bool points = options.sphereMode && !options.sphere.everyDirection;
@@ -287,7 +288,7 @@ void checkLetters(const Options& options) {
   }
 }
 
-// The errors and warnings of rtrace about colors.
+// Reports rtrace's errors and warnings about colors.
 void checkColorOutput(Options& options) {
   ColorOptions& color = options.color;
   if (color.space == ColorSpace::spectrum && color.bands == 3) color.space = ColorSpace::rgb;
@@ -309,7 +310,7 @@ void checkColorOutput(Options& options) {
                         : "-pRGB or -pY: standard errors are those of red, green and blue, or of luminance"));
 }
 
-// Sets options.irradiance; the errors and warnings of rtrace about irradiance and the letters of a ray.
+// Sets options.irradiance. Reports rtrace's errors and warnings about irradiance and the letters of a ray.
 void checkIrradiance(Options& options) {
   options.irradiance = options.irradianceAtPoint ? IrradianceAt::point
                        : options.irradianceAtHit ? IrradianceAt::surface
@@ -334,9 +335,9 @@ void checkIrradiance(Options& options) {
   }
 }
 
-// Limits of the directions of a point with -Sa but no -Sx. A point that never reaches the accuracy takes
-// half a second to a minute. The limit is lower with -Sd, which keeps all directions until the point is
-// finished, a kilobyte each.
+// Limits on the directions at a point with -Sa but without -Sx. A point that never reaches the accuracy takes
+// half a second to a minute. The limit is lower with -Sd, because it stores all directions of a point until
+// the point is finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
 // -SG
@@ -444,7 +445,7 @@ std::optional<bool> switched(std::string_view suffix, bool before) {
 
 namespace {
 
-// The options of a command line, and the mode that they choose.
+// The options of a command line, and the mode that they select.
 struct Given {
   std::vector<Use> uses;
   Request request = Request::answers;
@@ -455,7 +456,7 @@ struct Given {
   }
 };
 
-// The letters of -o where it is not given.
+// The default letters of -o.
 std::string_view usualOutputs(const Options& options) {
   if (!options.sphereMode) return "v";
   const SphereOptions& sphere = options.sphere;
@@ -463,7 +464,7 @@ std::string_view usualOutputs(const Options& options) {
   return sphere.everyDirection ? "odwv" : "v";
 }
 
-// Takes the option that `word` names, with the words after it.
+// Reads the option named by `word`, and its values from the following words.
 Use takeUse(Words& words, const Companion& companion, const std::string& word) {
   const OptionEntry* entry = findOption(companion, word);
   if (entry == nullptr) commandLineError(word, whyUnknown(companion, word));
@@ -510,7 +511,7 @@ std::vector<std::string> takeScene(Words& words) {
   return scene;
 }
 
-// Pictures have defaults of their own, and the options that are given.
+// Options for pictures: their own defaults, overridden by the given options.
 RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
   Options own = options;
   own.ray = pictureDefaults();
@@ -518,11 +519,11 @@ RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
     if (use.entry->name != "-S") apply(use, own);
   own.ray.sampling = options.ray.sampling;
   own.ray.wavelengths = options.ray.wavelengths;
-  own.ray.ambientFile.clear();  // it holds the light of answers, which have other options
+  own.ray.ambientFile.clear();  // contains light of answers, which have different options
   return own.ray;
 }
 
-// Reads a command line into options, and returns the options that it uses.
+// Parses a command line into options, and returns the options used in it.
 std::vector<Use> parse(std::span<const std::string> commandLine, const Companion& companion,
                        Options& options) {
   const std::string called = commandLine.empty() ? "rsphere" : commandLine[0];

@@ -24,8 +24,8 @@ constexpr Range kNotNegative{0, kInfinity};
 constexpr Range kFraction{0, 1};
 constexpr Range kCount{0, kLargestInt};
 
-// -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te and so
-// on do the same for ray trees. An option of one kind discards the names of the other kind before it.
+// -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te, -tE,
+// -ti and -tI do the same for ray trees. An option of one kind discards earlier names of the other kind.
 void setModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                   std::string_view) {
   const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';
@@ -84,7 +84,7 @@ void setThreads(Options& options, const OptionEntry& entry, std::span<const std:
                 std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0]);
-  constexpr int kMostThreads = 4096;  // more than any machine has; a larger number is a typing error
+  constexpr int kMostThreads = 4096;  // more than any machine has, so that a larger number is a typing error
   if (*n < 0 || *n > kMostThreads)
     throw rad::Error(fmt::format("bad number of processes: -n {} is not from 0 (one for each core) to {}", *n,
                                  kMostThreads));
@@ -110,8 +110,8 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
   options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
 }
 
-// As in rtrace, the word of -e is an expression if it contains '=' or ':', and else
-// the name of an error file.
+// As in rtrace, the word after -e is an expression if it contains '=' or ':'; otherwise it is the name of an
+// error file.
 void setErrorFile(Options& options, const OptionEntry&, std::span<const std::string> words,
                   std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
@@ -202,7 +202,7 @@ void setBands(Options& options, const OptionEntry& entry, std::span<const std::s
               std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0], fmt::format(" from 3 to {}", kMostBands));
-  // As in rtrace, more bands are not an error.
+  // As in rtrace, too many bands are not an error.
   if (*n > kMostBands)
     options.messages.remarks.push_back(
         fmt::format("{0} {1}: the range is 3 to {2}; {2} bands are used", entry.name, *n, kMostBands));
@@ -227,7 +227,7 @@ std::string outputsLine(const Options& o) {
   return fmt::format("-o{:<9}\t\t\t", fmt::format("{}{}{}", o.outputs, tree, o.treeOutputs));
 }
 
-// The lines of -defaults for the options that choose the color space: only the one in effect is printed.
+// The lines of -defaults for options that select the color space: only the selected one is printed.
 template <size_t I>
 std::string spaceLine(const Options& o) {
   return o.color.space == kSpaces[I].space ? fmt::format("{}\t\t\t\t", kSpaces[I].name) : "";
@@ -953,7 +953,7 @@ void addWeightOptions(const Add& add) {
        .line = weightsLine});
 }
 
-// What a record of sphere mode answers.
+// The quantities that sphere mode computes.
 void addAnswerOptions(const Add& add) {
   add({.name = "-Sg",
        .arguments = "mod",
@@ -1074,7 +1074,7 @@ void addGlareOptions(const Add& add) {
        .line = taskLine});
 }
 
-// Options of rsphere that hold in ray mode as well.
+// Options of rsphere that also apply in ray mode.
 void addBothModesOptions(const Add& add) {
   add({.name = "-Ss",
        .arguments = "N",
@@ -1134,7 +1134,7 @@ void addBothModesOptions(const Add& add) {
            "symbolic links point elsewhere. Holds in ray mode as well."});
 }
 
-// What shows how an answer came about.
+// Options for examining how answers were obtained.
 void addInspectionOptions(const Add& add) {
   add({.name = "-Sv",
        .group = Group::sphere,
@@ -1181,8 +1181,8 @@ void addInspectionOptions(const Add& add) {
            "special, separated by tabs. Nothing is read from standard input."});
 }
 
-// The order is that of rtrace's -defaults. From -ap to -t follow options of rtrace that its
-// -defaults does not print.
+// The order is that of rtrace's -defaults. Options of rtrace that its -defaults does not print follow, from
+// -ap to -t.
 std::vector<OptionEntry> makeTable() {
   std::vector<OptionEntry> table;
   for (const auto addOptions :
@@ -1211,9 +1211,9 @@ Options modeDefaults(bool sphereMode) {
   Options options;
   options.sphereMode = sphereMode;
   if (!sphereMode) return options;
-  // The mean of thousands of unbiased directions needs few samples in each of them. The defaults are four
-  // indirect paths for each direction, all light sources sampled over their whole size, and all highlights
-  // followed. Measured in the open-plan office of examples (50 spheres, -ab 3):
+  // The mean of thousands of unbiased directions needs few samples in each of them. By default, each
+  // direction has four indirect paths, all light sources are sampled over their whole size, and all
+  // highlights are followed. Measured in the open-plan office of examples (50 spheres, -ab 3):
   //   paths      rms error   time for a point
   //   1          .49%        69 ms
   //   4          .37%        161 ms
@@ -1225,28 +1225,29 @@ Options modeDefaults(bool sphereMode) {
   options.ray.directJitter = 1;
   options.ray.directThreshold = 0;
   options.ray.specularThreshold = 0;
-  // A tenth of rtrace's default. Russian roulette keeps the mean unbiased for any value, which only affects
-  // noise and time. Measured with -Sn 512 and 60 repeats:
-  // - The rms error of the open-plan office (-ab 3) is .40 to .47%, equal within its own error, for values
-  //   from .1 down to 1e-6. The time is .4 to 1.1 times that of 1e-5.
-  // - The rms error of a white room (reflectance .9, -ab 9) is .87% at .1, and .74% from .01 down.
-  // The default is chosen small for scenes in which paths of little weight find something very bright.
+  // A tenth of rtrace's default. Because of Russian roulette, the mean is unbiased for any value; only noise
+  // and time depend on it. Measured with -Sn 512 and 60 repeats:
+  // - In the open-plan office (-ab 3), the rms error is .40 to .47% for all values from .1 down to 1e-6,
+  //   without significant differences. The time is .4 to 1.1 times that of 1e-5.
+  // - In a white room (reflectance .9, -ab 9), the rms error is .87% for .1, and .74% for .01 and below.
+  // The default is small for the sake of scenes in which paths of little weight find something very bright.
   options.ray.weightLimit = 1e-5;
   return options;
 }
 
-// A picture has a tenth of the rays that one gather of interpolated light would have at each of its pixels,
-// and averages them over nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512
-// pixels): 10 s with 32 rays; with 16, the ceiling beside the windows has clouds. Patches with 256 rays at an
-// accuracy of .2 are not visible behind a gather. Full jitter, as in the answers: with .6, soft shadows of a
-// lamp of .3 x 1 m have steps. Above .5, rays of gathers do not divide luminaires into parts. Lobes are
-// sampled 8 times, and averaged over 60 pixels. -dt as in ray mode: testing all shadows of 15 luminaires
-// would take as long as all else.
+// At each pixel, a picture has a tenth of the rays of a gather for a cache record, and averages them over
+// nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
+// - Rays of a gather: 32, in 10 s. With 16, blotches are visible on the ceiling beside the windows.
+// - Patches: with 256 rays and an accuracy of .2 they are not visible through a gather.
+// - Jitter: full, as for answers. With .6, the soft shadow of a lamp of .3 x 1 m has steps. Above .5, rays of
+//   gathers do not divide luminaires into parts.
+// - Lobes are sampled 8 times, and averaged over 60 pixels.
+// - -dt as in ray mode: testing all shadows of 15 luminaires would take as long as all the rest.
 //
-// Patches that only other patches see are four times as wide as usual: of the light of second and later
-// bounces, single patches matter little. RADIANCE's office takes 9 s in place of 20 s with -ab 4, and its
-// mean is the same within .1%. With -ab 6 and patches of the usual width it takes 87 s and 1.1 GB, because
-// nearly all patches that the room may have are made.
+// Patches that are only seen by other patches are four times as wide as usual, because single patches matter
+// little for the light of second and later bounces. RADIANCE's office with -ab 4 takes 9 s instead of 20 s,
+// and its mean is the same within .1%. With -ab 6 and patches of the usual width it takes 87 s and 1.1 GB,
+// because nearly all possible patches of the room are created.
 RayOptions pictureDefaults() {
   RayOptions ray = modeDefaults(true).ray;
   ray.ambientDivisions = 32;

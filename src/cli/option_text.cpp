@@ -10,8 +10,7 @@
 namespace rsphere {
 namespace {
 
-// The names of the letters of -o in -defaults: those of rtrace, which has none for c,
-// and those of sphere mode.
+// The names of -o letters in -defaults: rtrace's, which has none for c, and those of sphere mode.
 struct LetterName {
   char letter;
   std::string_view name;
@@ -48,7 +47,7 @@ constexpr std::array kLetterNames = {
     LetterName{'Z', "zone_errors"},
 };
 
-// Those of -Su that differ.
+// Different names with -Su.
 constexpr std::array kGlareLetterNames = {
     LetterName{'o', "eye"},
     LetterName{'d', "gaze"},
@@ -63,7 +62,7 @@ constexpr std::array kGlareLetterNames = {
     LetterName{'n', "glare_sources"},
     LetterName{'t', "threshold"},
 };
-// And of its list of glare sources (-Sd).
+// Names for the list of glare sources (-Su -Sd).
 constexpr std::array kSourceLetterNames = {
     LetterName{'o', "eye"},         LetterName{'l', "luminance"},         LetterName{'L', "luminance_error"},
     LetterName{'w', "solid_angle"}, LetterName{'W', "solid_angle_error"}, LetterName{'p', "position_index"},
@@ -87,7 +86,7 @@ std::string_view letterName(char letter, const Options& options) {
   return nameIn(kLetterNames, letter);
 }
 
-// The remark after '#' in -defaults, which may depend on the values.
+// The remark after '#' in -defaults, which may depend on values.
 std::string remarkOf(const OptionEntry& entry, const Options& options) {
   const size_t bar = entry.remark.find('|');
   if (const auto* value = std::get_if<SwitchValue>(&entry.value)) {
@@ -111,7 +110,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
   return std::string(entry.remark);
 }
 
-// The line of -defaults up to its remark, with the number formats and tabs of rtrace.
+// The line of -defaults before its remark, with rtrace's number formats and tabs.
 std::string lineOf(const OptionEntry& entry, Options& options) {
   if (entry.line != nullptr) return entry.line(options);
   if (const auto* value = std::get_if<SwitchValue>(&entry.value))
@@ -168,7 +167,7 @@ constexpr std::array kGroups = {Group::records,  Group::sphere, Group::direct, G
                                 Group::indirect, Group::limits, Group::medium, Group::color,
                                 Group::trees,    Group::program};
 
-// The value alone, in its shortest form; empty if the option has none.
+// The value in its shortest form; empty if the option has none.
 std::string valueOf(const OptionEntry& entry, Options& options) {
   if (entry.inEffect != nullptr) return entry.inEffect(options) ? "on" : "off";
   if (entry.support == Support::refused) return "";
@@ -190,7 +189,7 @@ std::string valueOf(const OptionEntry& entry, Options& options) {
   return "";
 }
 
-// The sentences of the manual about the unit and the range.
+// The sentences of the manual on the unit and the range.
 std::string unitAndRange(const OptionEntry& entry) {
   std::string text;
   if (!entry.unit.empty()) text += fmt::format("Unit: {}. ", entry.unit);
@@ -203,7 +202,7 @@ std::string unitAndRange(const OptionEntry& entry) {
   return text;
 }
 
-// The same, with the defaults.
+// The same, followed by the defaults.
 std::string facts(const OptionEntry& entry) {
   std::string text = unitAndRange(entry);
   Options rays = modeDefaults(false), spheres = modeDefaults(true);
@@ -216,7 +215,7 @@ std::string facts(const OptionEntry& entry) {
   return text;
 }
 
-// Text for man(7), in which no line may begin with a dot or a quote, and a hyphen is written as a minus.
+// Escapes text for man(7): lines may not begin with a dot or a quote, and a hyphen is written as a minus.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -246,7 +245,7 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                      value.empty() ? "" : fmt::format(" [{}]", value));
 }
 
-// The part of a manual about an option. `more` follows its paragraph.
+// The part of a manual on one option. `more` follows its paragraph.
 std::string manualEntry(const OptionEntry& entry, const std::string& more) {
   const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
   std::string text = fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
@@ -260,7 +259,7 @@ std::string manualEntry(const OptionEntry& entry, const std::string& more) {
   return text + '\n';
 }
 
-// What all programs do with a scene, in RADIANCE's words.
+// Features common to all programs, in RADIANCE's words.
 constexpr std::string_view kSceneFeatures[] = {
     "VirtualSources",
     "SecondarySources",
@@ -278,7 +277,7 @@ constexpr std::string_view kSceneFeatures[] = {
     "Instancing=Octree,TriangleMesh",
     "Aliases"};
 
-// What only rsphere does, in rtrace's words.
+// Features of rsphere only, in rtrace's words.
 constexpr std::string_view kRayFeatures[] = {"ShadowCache",
                                              "Multiprocessing",
                                              "IrradianceCalc",

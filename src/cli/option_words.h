@@ -4,15 +4,15 @@
 
 namespace rsphere {
 
-// Throws rtrace's error for a word of the command line, with the reason and a reference to -help.
+// Throws rtrace's error for a word of the command line, with a reason and a reference to -help.
 [[noreturn]] void commandLineError(std::string_view at, std::string_view why);
 
-// The same for a word after an option that should be a number or a whole number. range: the numbers that the
-// option accepts, as " from 1 to 9", or nothing.
+// Throw the same for a word that should be a number or a whole number. range: the accepted numbers, such as "
+// from 1 to 9", or nothing.
 [[noreturn]] void notReal(std::string_view option, std::string_view word, std::string_view range = {});
 [[noreturn]] void notInteger(std::string_view option, std::string_view word, std::string_view range = {});
 
-// The state of a switch with these characters after its name: the opposite of `before` if there are none.
+// The state of a switch with these characters after its name; without characters, the opposite of `before`.
 // Empty if they are not one of + 1 y Y t T - 0 n N f F.
 std::optional<bool> switched(std::string_view suffix, bool before);
 

@@ -8,16 +8,16 @@
 
 namespace rsphere {
 
-// Whether the command line asks for answers or for a text about the program.
+// Whether the command line requests answers or a text about the program.
 enum class Request : uint8_t { answers, version, defaults, help, features };
 
-// Everything that the command line says. It is checked, but neither the scene nor a record has been read.
+// The command line. It is checked, but neither the scene nor a record has been read.
 struct Options : AnswerOptions {
   MessageOptions messages;
   bool irradianceAtHit = false,
-       irradianceAtPoint = false;  // -i -I as given; if both are on, `irradiance` is -I's
+       irradianceAtPoint = false;  // -i and -I as given; if both are on, `irradiance` is that of -I
   Request request = Request::answers;
-  std::vector<std::string> features;  // the words after -features
+  std::vector<std::string> features;  // words after -features
   double photonRadius = 0;            // -am  accepted and printed by -defaults; photon maps are not read
 };
 

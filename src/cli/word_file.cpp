@@ -24,7 +24,7 @@ std::vector<std::string> wordsOfFile(std::string_view what, const std::string& n
   std::vector<std::string> words;
   for (std::string word; path && file >> std::setw(kLongestWord + 1) >> word;) {
     words.push_back(word);
-    // An endless device exceeds these limits.
+    // Reading an endless device ends at these limits.
     if (words.size() > kMostWords || word.size() > kLongestWord)
       throw rad::Error(
           fmt::format("{} \"{}\" has {}", what, name,
