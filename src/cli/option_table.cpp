@@ -295,10 +295,10 @@ void addRecordOptions(const Add& add) {
        .unit = "threads",
        .remark = "number of rendering processes",
        .paragraph =
-           "Answers records on N threads; 0 starts one for each core. If the system refuses to start so "
-           "many, there is a warning and the program uses fewer. The answers do not depend on N. On a "
-           "machine of several NUMA nodes, the scene lies in the memory of one of them; a process for each "
-           "node, bound to it by numactl(8) and given a part of the records, can be faster.",
+           "Answers records on N threads; 0 starts one for each core. If the system cannot start that many, "
+           "there is a warning and the program uses fewer. The answers do not depend on N. On a machine "
+           "with several NUMA nodes, the scene is in the memory of one of them. It can then be faster to "
+           "run one process for each node, bound to it by numactl(8), each with a part of the records.",
        .line = +[](const O& o) { return fmt::format("-n {:<2}\t\t\t\t", o.threads); }});
   add({.name = "-x",
        .arguments = "res",
@@ -328,8 +328,7 @@ void addRecordOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.limitDistance; },
        .remark = "limit distance on|limit distance off",
        .paragraph =
-           "Toggles limited rays: a ray extends only as far as its direction vector is long. Ray mode "
-           "only."});
+           "Toggles limited rays: each ray ends at the length of its direction vector. Ray mode only."});
   add({.name = "-h",
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.header; },
@@ -401,22 +400,22 @@ void addRayOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
        .remark = "irradiance calculation on|irradiance calculation off",
        .paragraph =
-           "Toggles the irradiance (W/m2) of the surface that a ray hits, in place of the radiance "
-           "(W/sr/m2) that the surface sends back along the ray. Rays pass through glass and similar "
-           "materials as if they were not there. Light sources keep their radiance (see -dv). Ray mode "
-           "only."});
+           "Toggles the irradiance (W/m2) of the surface that a ray hits, instead of the radiance (W/sr/m2) "
+           "that the surface sends back along the ray. Rays pass through glass and similar materials as if "
+           "these did not exist. Light sources keep their radiance (see -dv). Ray mode only."});
   add({.name = "-u",
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
        .paragraph =
-           "Toggles other random numbers for a ray that is repeated. With -u+, the random numbers of a ray "
-           "depend on its number in the input as well as on the ray itself, so that the mean of the answers "
-           "to a repeated ray has less variance than a single answer. Otherwise they depend on the ray "
-           "alone, so that a repeated ray has the same answer each time; in rtrace it never has. -defaults "
-           "prints -u+ even so, as rtrace does, because programs read it. In both cases the answers do not "
-           "depend on -n, and interpolated indirect light (-aa above 0) is the same for repeated rays. All "
-           "samples are random; quasi-random sequences are not used. Ray mode only.",
+           "Toggles different random numbers for a ray that is repeated. With -u+, the random numbers of a "
+           "ray depend on its number in the input as well as on the ray itself, so that the mean of the "
+           "answers to a repeated ray has less variance than a single answer. Otherwise they depend only on "
+           "the ray, so that a repeated ray always has the same answer; in rtrace its answers always "
+           "differ. Nevertheless -defaults prints -u+, as rtrace does, because programs read it. In both "
+           "cases the answers do not depend on -n, and interpolated indirect light (-aa above 0) is the "
+           "same for repeated rays. All samples are random; quasi-random sequences are not used. Ray mode "
+           "only.",
        .inEffect = +[](const O& o) { return o.numberedRays; }});
   add({.name = "-bv",
        .group = Group::program,
@@ -433,10 +432,11 @@ void addShadowOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct threshold",
        .paragraph =
-           "Threshold of shadow testing. Light sources are tested for shadows until those that remain "
-           "could add less than this fraction of the light found so far. The light of the untested "
-           "sources is estimated from how often sources were visible. After a diffuse bounce, one source "
-           "drawn at random represents the untested ones, which keeps means unbiased. 0 tests all sources."});
+           "Threshold of shadow testing. Light sources are tested for shadows until the remaining ones "
+           "could add less than this fraction of the light found so far. The light of the untested sources "
+           "is estimated from the fraction of earlier tests in which sources were visible. After a diffuse "
+           "bounce, one randomly drawn source represents the untested ones, which keeps means unbiased. 0 "
+           "tests all sources."});
   add({.name = "-dc",
        .arguments = "frac",
        .group = Group::direct,
@@ -465,9 +465,9 @@ void addSourceOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "direct sampling",
        .paragraph =
-           "Light sources are divided into parts until the size of each part is below this fraction of "
-           "its distance. 0 leaves light sources undivided. Balls are divided in ray mode alone, for rays "
-           "that have not been reflected diffusely, and with -dj above 0."});
+           "Light sources are divided into parts until the size of each part is below this fraction of its "
+           "distance. 0 leaves light sources undivided. Balls are divided only in ray mode, for rays that "
+           "have not been reflected diffusely, and with -dj above 0."});
   add({.name = "-dr",
        .arguments = "N",
        .group = Group::direct,
@@ -478,8 +478,8 @@ void addSourceOptions(const Add& add) {
        .help = "most mirrors between a light source and a surface",
        .paragraph =
            "Largest number of successive plane surfaces of mirror, prism1 or prism2 through which "
-           "next-event estimation reaches a light source. Each such surface makes a virtual source of "
-           "every source that it sees. 0 disables virtual sources."});
+           "next-event estimation reaches a light source. Each such surface forms a virtual source of every "
+           "source that is visible from it. 0 disables virtual sources."});
   add({.name = "-dp",
        .arguments = "D",
        .group = Group::direct,
@@ -488,8 +488,8 @@ void addSourceOptions(const Add& add) {
        .unit = "samples/sr",
        .remark = "direct pretest density",
        .paragraph =
-           "Accepted without effect. In rtrace it is the density of the rays that test in advance whether "
-           "a virtual source can be reached at all, or from everywhere. Here every virtual source that "
+           "Accepted without effect. In rtrace it is the density of rays that test in advance whether a "
+           "virtual source is visible from any place, or from everywhere. Here every virtual source that "
            "geometry does not rule out is tested, as with 0.",
        .support = Support::unused});
   add({.name = "-dv",
@@ -559,11 +559,11 @@ void addGatheringOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "ambient accuracy",
        .paragraph =
-           "Relative error that the interpolation of indirect light may add; see Interpolation. 0 "
-           "disables the irradiance cache and the coarse solution, and each path gathers indirect light "
-           "anew. This is faster for a few rays or points in a detailed scene. In sphere mode, -aa makes no "
-           "difference where light paths from the sources bring all of the light (see -Sw): the program then "
-           "makes no coarse solution, because light paths take less time for the same error."});
+           "Relative error that the interpolation of indirect light may add; see Interpolation. 0 disables "
+           "the irradiance cache and the coarse solution, and each path gathers indirect light again. This "
+           "is faster for a few rays or points in a detailed scene. In sphere mode, -aa has no effect if "
+           "light paths from the sources find all light (see -Sw): the program then computes no coarse "
+           "solution, because light paths take less time for the same error."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -571,11 +571,11 @@ void addGatheringOptions(const Add& add) {
        .range = kCount,
        .remark = "ambient resolution",
        .paragraph =
-           "Finest resolution of the irradiance cache. The smallest spacing of cache records is about "
-           "the size of the room around them times -aa (at most .5), divided by res. The size of the "
-           "room follows from the distances of what a record sees, so that a wide ground does not make "
-           "the spacing coarser; it is at most that of the scene, which rtrace takes. In narrow gaps, "
-           "and where an obstacle hides cache records from the place that needs them, the spacing is "
+           "Finest resolution of the irradiance cache. The smallest spacing of cache records is about the "
+           "size of the room around them times -aa (at most .5), divided by res. The size of the room is "
+           "estimated from the distances to the surfaces visible from a record, so that a wide ground does "
+           "not make the spacing coarser. It is at most the size of the scene, which rtrace uses. In narrow "
+           "gaps, and where an obstacle hides cache records from the place that needs them, the spacing is "
            "smaller. Smaller detail of the indirect light is blurred. 0 sets no limit."});
   add({.name = "-ad",
        .arguments = "N",
@@ -597,9 +597,9 @@ void addGatheringOptions(const Add& add) {
        .unit = "rays",
        .remark = "ambient super-samples",
        .paragraph =
-           "Number of rays that are added to those of -ad. All of them are spread over the hemisphere "
-           "together. Unlike in rtrace, these rays are not adaptive: their directions do not depend on "
-           "what the others have found."});
+           "Number of rays that are added to those of -ad. All of them together are stratified over the "
+           "hemisphere. Unlike in rtrace, these rays are not adaptive: their directions do not depend on "
+           "the light found by the other rays."});
 }
 
 void addMediumOptions(const Add& add) {
@@ -657,8 +657,8 @@ void addSpectrumOptions(const Add& add) {
        .unit = "bands",
        .remark = "number of spectral bins",
        .paragraph =
-           "Number of bands of equal width in which light is computed, at most 24. With more than three, all "
-           "that is written is computed from the bands: see -co and -pRGB. Spectral patterns (spectrum, "
+           "Number of bands of equal width in which light is computed, at most 24. With more than three, "
+           "all output is computed from the bands: see -co and -pRGB. Spectral patterns (spectrum, "
            "specfile, specfunc, specdata, specpict) need them: in three channels they become red, green and "
            "blue by the CIE's observer, and products of spectra are approximate. See Spectra.",
        .line = bandsLine});
@@ -670,8 +670,8 @@ void addSpectrumOptions(const Add& add) {
        .unit = "nm",
        .remark = "wavelength limits (nm)",
        .paragraph =
-           "Limits of the spectrum that -cs divides: at least 0, and at least 50 nm apart. Light beyond them "
-           "is left out. Default: 380 and 780.",
+           "Limits of the spectrum that -cs divides: at least 0, and at least 50 nm apart. Light outside "
+           "them is ignored. Default: 380 and 780.",
        .line = wavelengthsLine});
 }
 
@@ -696,7 +696,7 @@ void addLimitOptions(const Add& add) {
        .remark = "limit weight",
        .paragraph =
            "Smallest weight of a ray; see -lr. If indirect light is interpolated (-aa above 0), each "
-           "diffuse reflection halves the weight, whatever the reflectance is, as in rtrace. The coarse "
+           "diffuse reflection halves the weight regardless of the reflectance, as in rtrace. The coarse "
            "solution of later bounces applies the limits of -lr and -lw as if each bounce were such a ray.",
        .line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }});
 }
@@ -747,14 +747,14 @@ void addModifierOptions(const Add& add) {
        .remark = "ambient file",
        .paragraph =
            "Stores the irradiance cache in a file beside the one named here, file.rsphere. The program "
-           "reads it at the start, adds new cache records to it now and then and at the end, and shares "
-           "it with other processes that run at the same time. A process that is killed does not damage "
-           "it. The file saves time and changes no answer. It does not contain the coarse solution of "
-           "later bounces. In sphere mode and with -I there is nothing to store. If file.rsphere was made "
-           "for another scene, with other options or by another version, there is a warning, and it is "
+           "reads it at the start, adds new cache records to it from time to time and at the end, and "
+           "shares it with other processes that run at the same time. A process that is killed does not "
+           "damage it. The file saves time and changes no answer. It does not contain the coarse solution "
+           "of later bounces. In sphere mode and with -I there is nothing to store. If file.rsphere was "
+           "made for another scene, with other options or by another version, there is a warning, and it is "
            "neither used nor changed. The file named here may be an ambient file of RADIANCE's own "
-           "programs: it is neither read nor written, so that one name can serve both. Requires -aa and "
-           "-ab above 0."});
+           "programs: it is neither read nor written, so that one name can serve both. Requires -aa and -ab "
+           "above 0."});
   add({.name = "-ae",
        .arguments = "mod",
        .group = Group::indirect,
@@ -815,7 +815,7 @@ void addTreeOptions(const Add& add) {
 }
 
 void addProgramOptions(const Add& add) {
-  constexpr std::string_view kPersist = "a program that waits is kept with a pipe and -x 1";
+  constexpr std::string_view kPersist = "to keep a program waiting for records, use a pipe and -x 1";
   add({.name = "-f",
        .arguments = "source",
        .group = Group::program,
@@ -854,11 +854,11 @@ void addProgramOptions(const Add& add) {
        .unit = "s",
        .remark = "progress report interval",
        .paragraph =
-           "Interval of progress reports on standard error. A report gives the number of answered "
-           "records, the records per second and, if the end of the input is known (-y, or input from a "
-           "file), the time left. 0 disables reports. If -t is not given, there is a report every 5 "
-           "seconds where standard error is a terminal but standard input and output are none, as in "
-           "'rsphere room.rad < points.txt > answers.txt'. Pictures (-Si) have reports of their own."});
+           "Interval of progress reports on standard error. A report gives the number of answered records, "
+           "the records per second and, if the end of the input is known (-y, or input from a file), the "
+           "time left. 0 disables reports. If -t is not given, there is a report every 5 seconds if "
+           "standard error is a terminal but neither standard input nor standard output is, as in 'rsphere "
+           "room.rad < points.txt > answers.txt'. The progress of pictures (-Si) is reported separately."});
 }
 
 void addDirectionOptions(const Add& add) {
@@ -889,10 +889,10 @@ void addDirectionOptions(const Add& add) {
            "Largest number of directions for one point: base directions, directions to special objects, "
            "directions to light sources and, where light is uneven, directions that follow the light. "
            "Directions to light sources are at most a quarter of -Sn unless there are more sources than "
-           "that; they are sent even if they exceed the limit. Where light paths are used (see -Sw), up to "
-           "-Sn of them are sent, but no more than half of what the limit leaves. Shadow rays and glances do "
-           "not count. Without -Sx, the limit is the default or twice -Sn, whichever is more; -Sa has a "
-           "limit of its own."});
+           "that; they are sent even if they exceed the limit. If light paths are used (see -Sw), up to -Sn "
+           "of them are sent, but no more than half of the directions that the limit leaves for them. "
+           "Shadow rays and glances are not included. Without -Sx, the limit is the default or twice -Sn, "
+           "whichever is larger; -Sa has a separate limit."});
 }
 
 void addWeightOptions(const Add& add) {
@@ -915,12 +915,12 @@ void addWeightOptions(const Add& add) {
        .remark = "accuracy",
        .paragraph =
            "Adaptive accuracy: the program averages sets of directions, each of -Sn base directions and "
-           "those for special objects, until the estimated standard error of the mean's brightness is "
-           "below acc times the mean. There are at least two sets. The total number of directions is at "
-           "most -Sx if that is given, otherwise a million, or 100,000 with -Sd. To stop as soon as the "
-           "error looks small would favor sets that are too dark by chance; therefore one half of the sets "
-           "decides when the other half stops, and the other way round. At the end, a warning gives the "
-           "number of points that did not reach the accuracy, and the largest error. 0 uses one set."});
+           "those for special objects, until the estimated standard error of the mean's brightness is below "
+           "acc times the mean. There are at least two sets. The total number of directions is at most -Sx "
+           "if that is given, otherwise a million, or 100,000 with -Sd. Stopping as soon as the error looks "
+           "small would favor sets that are too dark by chance. Therefore each half of the sets decides "
+           "when the other half stops. At the end, a warning gives the number of points that did not reach "
+           "the accuracy, and the largest error. 0 uses one set."});
   add({.name = "-Sf",
        .arguments = "share",
        .group = Group::sphere,
@@ -928,14 +928,14 @@ void addWeightOptions(const Add& add) {
        .range = kFraction,
        .remark = "clamp: largest share of one direction",
        .paragraph =
-           "Clamp of single directions, against outliers (fireflies): what a direction contributes to the "
-           "mean beyond what glances expect of it is limited to this fraction of the mean. "
-           "Directions to light sources that are integrated separately are not limited. The clamp makes "
-           "the mean too small wherever it takes effect; at the end, a warning gives the number of points "
-           "where it did and how much light it took. Standard errors are those of the clamped mean and do "
-           "not contain this bias. With -Sn N, a direction contributes 1/N of the mean on average; values "
-           "below 20/N therefore limit ordinary directions, too, and not only outliers. Only with -Sw c. 0 "
-           "does not clamp."});
+           "Clamp of single directions, against outliers (fireflies): the part of a direction's "
+           "contribution to the mean that exceeds the estimate by glances is limited to this fraction of "
+           "the mean. Directions to light sources that are integrated separately are not limited. The clamp "
+           "makes the mean too small wherever it takes effect; at the end, a warning gives the number of "
+           "points where it did and the fraction of light that it removed. Standard errors are those of the "
+           "clamped mean and do not contain this bias. With -Sn N, a direction contributes 1/N of the mean "
+           "on average. Values below 20/N therefore limit not only outliers but also ordinary directions. "
+           "Only with -Sw c. 0 does not clamp."});
   add({.name = "-Sw",
        .arguments = "letter",
        .group = Group::sphere,
@@ -944,12 +944,13 @@ void addWeightOptions(const Add& add) {
        .paragraph =
            "Weights of the directions. h: equal weights for the base directions, and no other directions. "
            "v: the solid angle of each direction's cell in a spherical Voronoi diagram. c: the same, with "
-           "cells that end at the silhouettes of special objects, with light sources integrated "
-           "separately by next-event estimation. Then the light of diffuse surfaces comes from glances, rays "
-           "that only find a surface: with light paths from the sources where these know all surfaces and "
-           "sources (plastic, metal, glass and curved mirrors without patterns, textures and mixtures; light "
-           "without patterns, not distant), whatever -aa is, otherwise as a control variate, but not by "
-           "daylight. With h and v, a light source is a surface like any other.",
+           "cells that end at the silhouettes of special objects, and with light sources integrated "
+           "separately by next-event estimation. With c, the light of diffuse surfaces is estimated by "
+           "glances, rays that only find a surface. There are two cases. If all surfaces and sources are "
+           "suitable, glances are combined with light paths from the sources, whatever -aa is. Suitable are "
+           "surfaces of plastic, metal, glass and curved mirrors without patterns, textures and mixtures, "
+           "and sources without patterns that are not distant. Otherwise glances are used for a control "
+           "variate, but not by daylight. With h and v, light sources are treated like other surfaces.",
        .line = weightsLine});
 }
 
@@ -970,29 +971,31 @@ void addAnswerOptions(const Add& add) {
        .value = Custom{setSensors},
        .remark = "sensors as goals",
        .paragraph =
-           "Computes importance for sensors or eyes, places without a surface: the file, which is searched"
-           " for along RAYPATH, has x y z and the direction dx dy dz in which it faces of each, separated "
-           "by white space. A sensor receives light by the cosine, as rtrace -I does, and counts as a goal"
-           " of area 1. It blocks and reflects nothing. Its importance straight from a point, or by way of"
-           " one mirror, is exact. With -Sp the sensors are the contributors sensor1, sensor2 and so on, "
-           "after the goals of -Sg. May be repeated. Not with -Sw h and v, nor with -Si."});
+           "Computes importance for sensors or eyes, which are places without a surface. The file is "
+           "searched for along RAYPATH. For each sensor it contains x y z and the direction dx dy dz that "
+           "the sensor faces, separated by white space. A sensor receives light in proportion to the "
+           "cosine, as with rtrace -I, and is treated as a goal of area 1. It blocks and reflects nothing. "
+           "Its importance at a point directly, or by one mirror, is exact. With -Sp the sensors are the "
+           "contributors sensor1, sensor2 and so on, after the goals of -Sg. May be repeated. Not with -Sw "
+           "h and v, nor with -Si."});
   add({.name = "-Sp",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.separate; },
        .remark = "part of each goal|sum over goals",
        .paragraph =
-           "Toggles the part of each contributor instead of their sum, in one pass. The contributors are the "
-           "goals in the order of -Sg, or without goals the modifiers of light sources in the order of the "
-           "scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E C H u z Z, in ray "
-           "mode v V r x, then has the numbers of all contributors in turn: -oHv of two goals are 18 numbers "
-           "of H for the first goal, 18 for the second, and 3 of v for each. The parts add up to the answers "
-           "without -Sp, but for the ambient value (-av), which has no contributor. In ray mode light may be "
-           "interpolated (-aa above 0); rcontrib does not interpolate, but has bins and tracks any surface. "
-           "Standard errors (e) are those of the parts; with -pY they are upper bounds, because the errors "
-           "of red, green and blue are taken for fully correlated. With the same -Sn they are larger than in "
-           "a run of each goal alone, because the goals share the light paths: 2.3 times for eight desks in "
-           "an office, in 1.5 times the time of one. -Sa looks at the sum. At most 1000 contributors. Not "
-           "with -cs above 3, -af or pixels (-fac)."});
+           "Toggles separate answers for each contributor instead of their sum, in one pass. The "
+           "contributors are the goals in the order of -Sg, or without goals the modifiers of light sources "
+           "in the order of the scene; the header lists them after CONTRIBUTORS=. Each of the letters v e E "
+           "C H u z Z (in ray mode v V r x) then writes the values of all contributors in turn: with two "
+           "goals, -oHv writes 18 numbers of H for the first goal, 18 for the second, and 3 of v for each. "
+           "The parts add up to the answers without -Sp, except for the ambient value (-av), which has no "
+           "contributor. In ray mode light may be interpolated (-aa above 0); rcontrib does not "
+           "interpolate, but has bins and tracks any surface. Standard errors (e) are those of the parts. "
+           "With -pY they are upper bounds, because the errors of red, green and blue are assumed to be "
+           "fully correlated. With the same -Sn they are larger than in a separate run for each goal, "
+           "because the goals share the light paths: 2.3 times for eight desks in an office, in 1.5 times "
+           "the time of one. -Sa applies to the sum. At most 1000 contributors. Not with -cs above 3, -af "
+           "or pixels (-fac)."});
   add({.name = "-Sz",
        .arguments = "N",
        .group = Group::sphere,
@@ -1000,40 +1003,40 @@ void addAnswerOptions(const Add& add) {
        .range = {0, 100000},
        .remark = "zones of directions",
        .paragraph =
-           "Divides all directions into N zones of equal solid angle, whose mean radiances the letter z of "
-           "-o writes, and Z their standard errors; see OUTPUT. 0: there are no zones."});
+           "Divides all directions into N zones of equal solid angle. The letter z of -o writes their mean "
+           "radiances, and Z the standard errors of these; see OUTPUT. 0: there are no zones."});
   add({.name = "-Szb",
        .arguments = "bin",
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.sphere.zoneOf; },
        .remark = "bins of directions",
        .paragraph =
-           "Divides all directions into bins of your own instead of -Sz zones: an expression of the number "
-           "of the bin, from 0, for a direction Dx, Dy, Dz in which the point looks; it is rounded. It may "
-           "use what -e and -f define, for example reinhart.cal. Directions with a negative number, or one "
-           "of at least -Szn, are in no bin. Borders of bins are followed to .1 degrees. The letter z of -o "
-           "has the mean radiance of each bin, and the header the solid angles (sr), eight in each line of "
-           "SOLIDANGLES=. Needs -Szn."});
+           "Divides all directions into user-defined bins instead of -Sz zones. bin is an expression for "
+           "the number of the bin, from 0, that contains the direction Dx, Dy, Dz in which the point looks; "
+           "it is rounded. It may use definitions of -e and -f, for example reinhart.cal. Directions with a "
+           "negative number, or a number of at least -Szn, are in no bin. Borders of bins are accurate to "
+           ".1 degrees. The letter z of -o writes the mean radiance of each bin. The header contains the "
+           "solid angles (sr), eight in each line of SOLIDANGLES=. Needs -Szn."});
   add({.name = "-Szn",
        .arguments = "count",
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.sphere.zoneCount; },
        .remark = "number of bins",
-       .paragraph = "Number of bins of -Szb, as an expression that is constant: at most 100,000."});
+       .paragraph = "Number of bins of -Szb, as a constant expression: at most 100,000."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },
        .remark = "basic radiance on|basic radiance off",
        .paragraph =
            "Toggles basic radiance, L/n2, where n is the refractive index. Refraction does not change it. "
-           "Through refracting materials, importance is correct only in this form."});
+           "Importance through refracting materials is correct only in this form."});
   add({.name = "-Sd",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
        .paragraph =
-           "Toggles a record for every direction instead of the mean of a point; with -Su, for every "
-           "glare source of an eye. See OUTPUT."});
+           "Toggles a record for every direction instead of the mean at a point; with -Su, for every glare "
+           "source of an eye. See OUTPUT."});
 }
 
 // Glare at an eye.
@@ -1043,12 +1046,13 @@ void addGlareOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphere.glare.wanted; },
        .remark = "glare at an eye|means at a point",
        .paragraph =
-           "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place and "
-           "the direction in which it looks, which is not vertical; z is up. The answer is the unified glare "
-           "rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
+           "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place "
+           "and the direction in which it looks, which is not vertical; z is up. The answer is the unified "
+           "glare rating, the illuminance at the eye (lx), the luminance of the background (cd/m2), and the "
            "daylight glare probability; with -Sd, the list of the glare sources. See OUTPUT. Eight sets of "
-           "-Sn base directions and those for special objects are averaged, and their differences give the "
-           "standard errors. Not with -Sa, -Sb, -Sf, -Sg, -SG, -Si, -Sp, -Sw h, -Sw v, -Sz."});
+           "directions are averaged, each of -Sn base directions and those for special objects; their "
+           "differences give the standard errors. Not with -Sa, -Sb, -Sf, -Sg, -SG, -Si, -Sp, -Sw h, -Sw v, "
+           "-Sz."});
   add({.name = "-Sub",
        .arguments = "factor",
        .group = Group::sphere,
@@ -1056,9 +1060,9 @@ void addGlareOptions(const Add& add) {
        .range = kNotNegative,
        .remark = "threshold of glare sources",
        .paragraph =
-           "What is brighter than this is a glare source, besides the light sources, which always are. Above "
-           "100 it is a luminance in cd/m2; otherwise a factor on the mean luminance of the task (-Sut), or "
-           "without a task on that of all directions in front of the eye, as in evalglare."});
+           "Threshold of luminance above which regions are glare sources; light sources are always glare "
+           "sources. Above 100, it is in cd/m2. Otherwise it is a factor, as in evalglare: on the mean "
+           "luminance of the task (-Sut) or, without a task, of all directions in front of the eye."});
   add({.name = "-Sut",
        .arguments = "below opening",
        .group = Group::sphere,
@@ -1067,10 +1071,10 @@ void addGlareOptions(const Add& add) {
        .unit = "degrees",
        .remark = "task: angle below the gaze, opening",
        .paragraph =
-           "The task: a disk of directions, as of a screen or a book, whose middle lies `below` degrees "
-           "under the line of sight and which is `opening` degrees wide. Its mean luminance, times -Sub of "
-           "at most 100 (usually 5), is the threshold of glare sources. An opening of 0 means that there is "
-           "no task.",
+           "The task, such as a screen or a book: a disk of directions with its middle `below` degrees "
+           "under the line of sight, and `opening` degrees wide. If -Sub is at most 100 (usually 5), the "
+           "threshold of glare sources is the mean luminance of the task times -Sub. An opening of 0 means "
+           "that there is no task.",
        .line = taskLine});
 }
 
@@ -1084,9 +1088,9 @@ void addBothModesOptions(const Add& add) {
        .remark = "light sources tested at a surface",
        .paragraph =
            "Number of light sources that next-event estimation tests at a diffuse surface, instead of all "
-           "of them; for rays of less weight it is smaller. The sources are drawn at random, in "
-           "proportion to their contribution without shadows; -dt, -dc, -dj and -ds do not apply to them. "
-           "0 tests all sources. Holds in ray mode as well."});
+           "of them; it is smaller for rays of less weight. The sources are drawn at random, in proportion "
+           "to their contribution without shadows; -dt, -dc, -dj and -ds do not apply to them. 0 tests all "
+           "sources. Also applies in ray mode."});
   add({.name = "-Sh",
        .arguments = "N",
        .group = Group::indirect,
@@ -1094,10 +1098,11 @@ void addBothModesOptions(const Add& add) {
        .range = {0, 1000},
        .remark = "first rays for each that goes on",
        .paragraph =
-           "Where daylight enters through openings, nothing is interpolated and there are no light sources, "
-           "the first gather of a path sends N times as many rays. The rays of -ad go on beyond the diffuse "
-           "surfaces that they meet; the others bring only what they meet themselves, such as the sky. 0 "
-           "chooses 2, 4 or 8 for -ab 2, 3 or more, which suits contributions by bins of the sky."});
+           "Factor on the number of rays in the first gather of a path, where daylight enters through "
+           "openings, nothing is interpolated and there are no light sources. The rays of -ad continue "
+           "beyond the diffuse surfaces that they hit. The additional rays only contribute the light "
+           "emitted where they end, such as that of the sky. 0 selects 2, 4 or 8 for -ab 2, 3 or more, "
+           "which suits contributions by bins of the sky."});
   add({.name = "-Sm",
        .arguments = "MB",
        .group = Group::sphere,
@@ -1107,11 +1112,11 @@ void addBothModesOptions(const Add& add) {
        .remark = "memory of interpolation",
        .paragraph =
            "Limit of the memory for the irradiance cache of ray mode (-aa above 0), in millions of bytes. "
-           "When it is reached, cache records are discarded, and computed again when they are needed: "
-           "answers stay the same, and only the time grows. The coarse solution of later bounces is not "
-           "included; its memory has no limit and grows with the number of surfaces that paths reach. 0 "
-           "sets no limit. Not together with -af. Sphere mode has no cache records, and the limit has no "
-           "effect there."});
+           "When it is reached, cache records are discarded, and computed again when they are needed. This "
+           "changes no answer, but takes more time. The coarse solution of later bounces is not included; "
+           "its memory has no limit and grows with the number of surfaces that paths reach. 0 sets no "
+           "limit. Not together with -af. Sphere mode has no cache records, so that the limit has no effect "
+           "there."});
   add({.name = "-Sr",
        .arguments = "N",
        .group = Group::sphere,
@@ -1127,11 +1132,11 @@ void addBothModesOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.commands; },
        .remark = "scene commands on|scene commands off",
        .paragraph =
-           "Toggles commands in scene files (lines that begin with !). xform always works, because it "
-           "needs no other program. -Sc- is meant for untrusted scenes: it also restricts the files that "
-           "scene files name (xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular "
-           "files in or below the folders of the files on the command line and of RAYPATH, even if "
-           "symbolic links point elsewhere. Holds in ray mode as well."});
+           "Toggles commands in scene files (lines that begin with !). xform always works, because it needs "
+           "no other program. -Sc- is meant for untrusted scenes: it also restricts the files that scene "
+           "files name (xform, octrees, meshes, data, pictures, fonts, functions, BSDFs) to regular files "
+           "in or below the folders of the files on the command line and of RAYPATH, even if symbolic links "
+           "point elsewhere. Also applies in ray mode."});
 }
 
 // Options for examining how answers were obtained.
@@ -1141,8 +1146,8 @@ void addInspectionOptions(const Add& add) {
        .value = +[](O& o) -> bool& { return o.sphere.verify; },
        .remark = "verify weights|weights not verified",
        .paragraph =
-           "Toggles verification of the weights of each point: they must sum to 4 pi, and no circle "
-           "through three neighbors may contain a fourth. Otherwise the program stops with an error."});
+           "Toggles verification of the weights of each point: they must sum to 4 pi, and no circle through "
+           "three neighboring directions may contain a fourth. Otherwise the program stops with an error."});
   add({.name = "-Si",
        .arguments = "pic",
        .group = Group::sphere,
@@ -1150,35 +1155,33 @@ void addInspectionOptions(const Add& add) {
        .remark = "picture of each point",
        .paragraph =
            "Draws a picture of the light that arrives at each point from all directions. The extension of "
-           "the name gives the format. The answers are those of the same options without -Si. The half "
-           "a million pixels of a picture have defaults of their own: -aa .2 -ad 32 -ar 64 -dj 1 -dt "
-           ".03 -lw 1e-4 -ss 8. Of these and all other options of rtrace, those that are given hold for "
-           "pictures as well; -S options do not concern them, except for -Ss, -Sg, -Sb and -Sr. Indirect "
-           "light is gathered at one pixel in four, or in nine where lamps alone give light, from -ad + -as "
-           "rays, and averaged over nearby pixels of the same surface, as are rough reflections and the "
-           "noise of soft shadows. -aa 0 follows paths of all bounces, without bias and in several times the "
-           "time; with any other -aa, later bounces come from the coarse solution. Pixels at edges have five "
-           "or nine rays. Light sources have their own radiance and size. One core takes 5 to 25 seconds for "
-           "a picture of a furnished room with these defaults, and 50 where walls are made of logs. Each "
-           "picture is drawn by one thread, several points by as many as -n asks for. On a terminal, "
-           "and with -t, the program reports how much is done, and the time left. RADIANCE pictures "
-           "(.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and +z above it. "
-           "Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other views, such "
-           "as the hemisphere that evalglare expects. pcond of RADIANCE 6.1 crashes on any view of 360 "
-           "degrees, so that a picture is converted before it. In all other formats, +y is in the middle, "
-           "too, +x to the right of it at a quarter of the width, and -y at both edges; columns are "
-           "azimuths, and rows go from the zenith to the nadir. EXR and "
-           "TIFF files contain radiance. Other files contain colors, exposed so that the median is "
-           "mid-bright. %d in the name (or %04d and the like) is replaced by the number of the record, "
-           "from 0."});
+           "the name selects the format. The answers do not change. The half a million pixels of a picture "
+           "have separate defaults: -aa .2 -ad 32 -ar 64 -dj 1 -dt .03 -lw 1e-4 -ss 8. These and all other "
+           "options of rtrace also apply to pictures if they are given; of the -S options only -Ss, -Sg, "
+           "-Sb and -Sr do. Indirect light is gathered with -ad + -as rays at one pixel in four, or in nine "
+           "if there are only lamps. It is averaged over nearby pixels of the same surface, as are rough "
+           "reflections and the noise of soft shadows. -aa 0 follows paths of all bounces, without bias and "
+           "in several times the time; with any other -aa, later bounces come from the coarse solution. "
+           "Pixels at edges have five or nine rays. Light sources have their true radiance and size. With "
+           "these defaults, a picture of a furnished room takes one core 5 to 25 seconds, and 50 if walls "
+           "are made of logs. Each picture is drawn by one thread, and several points by as many threads as "
+           "-n allows. On a terminal, and with -t, the program reports the finished part and the time left. "
+           "RADIANCE pictures (.hdr, .pic) are angular fisheyes of 360 degrees, with +y in the middle and "
+           "+z above it. Their header has the command, SOFTWARE= and VIEW=; pinterp converts them to other "
+           "views, such as the hemisphere that evalglare expects. pcond of RADIANCE 6.1 crashes on any view "
+           "of 360 degrees, so that pictures must be converted first. In all other formats, too, +y is in "
+           "the middle; +x is to the right of it at a quarter of the width, and -y at both edges. Columns "
+           "are azimuths, and rows go from the zenith to the nadir. EXR and TIFF files contain radiance. "
+           "Other files contain colors, exposed so that the median is mid-bright. %d in the name (or %04d "
+           "and the like) is replaced by the number of the record, from 0."});
   add({.name = "-Sl",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.listSpecial; },
        .remark = "list special objects|answers",
        .paragraph =
-           "Toggles a list of the special objects of the scene instead of answers. Each line has the "
-           "place, the material, the density of directions (1/sr) and the reason why the object is "
-           "special, separated by tabs. Nothing is read from standard input."});
+           "Toggles a list of the special objects of the scene instead of answers. Each line contains the "
+           "place, the material, the density of directions (1/sr) and the reason why the object is special, "
+           "separated by tabs. Nothing is read from standard input."});
 }
 
 // The order is that of rtrace's -defaults. Options of rtrace that its -defaults does not print follow, from
