@@ -9,8 +9,8 @@ namespace rad {
 // Reads the parts that octrees and meshes have in common. Errors contain the byte at which they were noticed.
 
 // Reads the width of object numbers, 1 to 8 bytes: the format number minus `magic`. Throws if it is out of
-// range. otherFormat: the format in the header, if it is not that of these data; it is then the reason given
-// in the error.
+// range. otherFormat: the format named in the header, if it differs from the expected one; the error then
+// gives it as the reason.
 int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat = {});
 
 // The cube that encloses all surfaces. It is stored as four numbers in text.

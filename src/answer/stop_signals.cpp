@@ -41,7 +41,7 @@ struct State {
   std::atomic<int> messageFd{2};
   int pipe[2] = {-1, -1};
   std::array<std::string, kSignals.size()> messages;
-  std::array<struct sigaction, kSignals.size() + 1> before{};  // the last is that of SIGPIPE
+  std::array<struct sigaction, kSignals.size() + 1> before{};  // previous handlers, SIGPIPE last
 };
 State state;
 

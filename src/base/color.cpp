@@ -105,7 +105,7 @@ double* Bands::cover(size_t begin, size_t end) {
   return block->values() + (begin - first);
 }
 
-// Stores the same range of values as another block, without setting them.
+// Provides memory for the same range of values as another block has; the values are not set.
 double* Bands::cover(const Block& like) {
   if (block_ == &like) return block_->values();
   if (block_ && block_->room < like.filled()) release();

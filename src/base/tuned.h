@@ -2,7 +2,7 @@
 // Tuning constants: numbers that trade error for time, or that approximate an unknown quantity. Each folder
 // declares its own in its tuning.h, in one struct for each subsystem, with meaning, unit and origin. Physical
 // and geometric constants, limits documented by RADIANCE, and tolerances for rounding are not tuning
-// constants; they are where they are used.
+// constants; they are declared where they are used.
 //
 //   struct Group {
 //     // ...

@@ -12,7 +12,7 @@ struct PointAnswer {
   V3d point{0, 0, 0};                // o
   Radiance mean;                     // v  F/4pi
   Radiance standardError;            // e  of mean
-  double brightnessError = 0;        // and of its brightness: with -pY
+  double brightnessError = 0;        // standard error of its brightness, for -pY
   Irradiance scalarIrradiance;       // E  F/4
   Irradiance cylindricalIrradiance;  // C  (1/pi) integral of L sin(angle to z)
   Irradiance facing[6];              // H  irradiances of the six faces, +x -x +y -y +z -z

@@ -120,11 +120,12 @@ struct SeenSources {
   // (rad) in the image; and kSmallShare times an even share of all rays to images. Chosen by experiment.
   // Changing it by 30% has no effect beyond noise (points by sun; noise: error below 1%, time 4%).
   RSPHERE_TUNED(SeenSources, double, kUsualRays, 16);
-  // Side of the squares in this cap (rad). Without them, the error below a luminous ceiling partly hidden by
-  // 36 balls is 2.9% instead of .5% (2048 base directions). Changing it by 30% changes no answer.
+  // Side (rad) of the squares in the cap of kUsualRays. Without them, the error below a luminous ceiling
+  // partly hidden by 36 balls is 2.9% instead of .5% (2048 base directions). Changing it by 30% changes no
+  // answer.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The fraction of an even share in this cap. With it, the error for a small half-hidden lamp falls from
-  // 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
+  // The fraction of an even share in the cap of kUsualRays. With it, the error for a small half-hidden lamp
+  // falls from 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
   //
   // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
   // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Changing it by 30%
@@ -145,7 +146,7 @@ struct SeenSources {
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
 };
 
-// The regions that replace silhouettes (silhouette.cpp, silhouette_index.cpp).
+// Regions of directions used in place of exact silhouettes (silhouette.cpp, silhouette_index.cpp).
 struct Silhouettes {
   // Largest half angle (rad) of an object, as seen from the point, for which a hull is computed instead of a
   // cap: derived. Hulls are computed on a plane, which cannot represent a hemisphere (1.57). At this angle,

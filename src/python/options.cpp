@@ -32,8 +32,8 @@ struct Keyword {
   }
 };
 
-// Whether a keyword cannot be the name of an option of the command. Options contain no underscore. Text
-// directly after -f, -o, -te and -ti is their value, which is not part of a keyword.
+// Whether a keyword cannot name an option of the command. Names of options contain no underscore. Keywords
+// such as "oVW" are also excluded: the letters after -f, -o, -te and -ti are a value, not part of the name.
 bool isNoOption(std::string_view name) {
   const size_t at = name.find('_');
   if (at != name.npos && at + 1 < name.size()) return true;

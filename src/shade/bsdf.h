@@ -19,7 +19,7 @@
 
 namespace rsphere {
 
-// Luminance and the other two tristimulus values.
+// Tristimulus values; y is luminance.
 struct Tristimulus {
   double x = 0, y = 0, z = 0;
 };

@@ -153,8 +153,8 @@ class SurfaceFunctions {
     Color color;
   };
   // specfunc: a function of the wavelength. Its mean over each bin is estimated from two wavelengths. As in
-  // RADIANCE, the spectrum is spread over the whole range, although the last bin may end up to a step
-  // earlier.
+  // RADIANCE, the spectrum is spread over the whole range, although the last bin may end earlier, by at most
+  // one step.
   struct SpectralFunction {
     ProgramPointer program;
     double longest = 0, shortest = 0;  // nm

@@ -79,9 +79,9 @@ void Delaunay::start(const std::array<Site, 4>& first) {
 
 // Inlined into insert(), its only caller, so that p stays in registers.
 [[gnu::always_inline]] inline std::uint32_t Delaunay::locate(const V3d& p, std::uint32_t& equal) {
-  // A visibility walk: it crosses an edge that separates p from the triangle until a circumcircle contains p.
-  // It ends if the hull contains the centre and all signs are right. Otherwise the step limit ends it, and
-  // the nearest site is searched for instead.
+  // A visibility walk: while no circumcircle contains p, it crosses an edge that separates p from the
+  // triangle. It ends by itself if the hull contains the centre and all signs are right. Otherwise it ends at
+  // the step limit, and the nearest site is searched for instead.
   const std::uint32_t limit =
       64 + 4 * static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles.size())));
   std::uint32_t t = 0, from = kNone;

@@ -78,7 +78,7 @@ class VoronoiWorkspace {
 std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span<const V3d> dynamicDirections,
                                         VoronoiWorkspace& workspace);
 
-// Without a base.
+// The same without base directions.
 std::span<const double> cellSolidAngles(std::span<const V3d> directions, VoronoiWorkspace& workspace);
 std::vector<double> cellSolidAngles(std::span<const V3d> directions);
 
