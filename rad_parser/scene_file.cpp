@@ -173,8 +173,8 @@ class SceneReader {
                            fmt::format("cannot execute command: {}", std::strerror(fault.code().value())),
                            Status::system);
     }
-    const bool named = from.file == SourceFile::kNoFile;  // given instead of a file name, so its output may
-                                                          // be an octree
+    // A command given in place of a file name may output an octree.
+    const bool named = from.file == SourceFile::kNoFile;
     const std::string ahead = named ? readBeginning(running->output()) : std::string();
     const size_t before = builder_.description().primitives.size();
     if (ahead.empty() || !octree(running->output(), file, ahead)) {

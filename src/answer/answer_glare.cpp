@@ -25,7 +25,7 @@ GlareAnswer GlareWorkers::answer(const Record& record, unsigned worker) {
     throw rad::Error(fmt::format(
         "record {}: the gaze {:g} {:g} {:g} {}", record.index + 1, along.x, along.y, along.z,
         along == V3d(0, 0, 0) ? "has no length: it is a direction, not a point"
-                              : "is vertical, so that nothing says which side is above: tilt it"));
+                              : "is vertical, so that the view has no upward direction: tilt it"));
   return estimator_.estimate(eye, *gaze, workspaces_[worker]);
 }
 

@@ -105,7 +105,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(parsed.sphere.glare.wanted != glare, "-Su", "glare() answers eyes, and sphere() points");
   refuse(!parsed.goals.empty(), "-Sg",
          "goals belong to the scene (SceneOptions), or are those of importance()");
-  refuse(!parsed.sensors.empty(), "-SG", "sensors are those of importanceOfSensors()");
+  refuse(!parsed.sensors.empty(), "-SG", "sensors are given to importanceOfSensors()");
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");
@@ -120,8 +120,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
   if (glare && usual) parsed.outputs = "uUvVbBgGt";
   refuse(
       glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
-      "o, d and n are those of the command: eyes and gazes are the caller's, and the list of glare sources "
-      "has its length");
+      "only the command rsphere writes o, d and n: the caller knows its eyes and gazes, and the length of the "
+      "list of glare sources is their number");
   if (records == Records::points && usual) {
     const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
     parsed.outputs =

@@ -261,7 +261,7 @@ void checkGlareLetters(const Options& options) {
       throw rad::Error(fmt::format("unrecognized output option '{}' (glare): the letters are {}; see -help",
                                    letter, known));
   if (options.out == NumberFormat::rgbe)
-    commandLineError("-Su", "indices of glare are no colors: not with -fac");
+    commandLineError("-Su", "glare indices are not colors: not with -fac");
 }
 
 // Throws rad::Error if a letter of -o does not belong to the mode or to the output format.
@@ -306,8 +306,8 @@ void checkColorOutput(Options& options) {
       !haveStandardErrors(color) && error != std::string::npos)
     throw rad::Error(fmt::format(
         "-o{} needs {}", options.outputs[error],
-        color.bands > 3 ? "-co or -pY with -cs above 3: standard errors are those of bands, or of luminance"
-                        : "-pRGB or -pY: standard errors are those of red, green and blue, or of luminance"));
+        color.bands > 3 ? "-co or -pY with -cs above 3: standard errors exist for bands, or for luminance"
+                        : "-pRGB or -pY: standard errors exist for red, green and blue, or for luminance"));
 }
 
 // Sets options.irradiance. Reports rtrace's errors and warnings about irradiance and the letters of a ray.
@@ -355,7 +355,7 @@ void checkParts(const Options& options) {
   if (options.color.bands > 3)
     commandLineError("-Sp", "needs red, green and blue: -cs above 3 is not possible");
   if (options.out == NumberFormat::rgbe)
-    commandLineError("-Sp", "a pixel has no room for parts: not with -fac");
+    commandLineError("-Sp", "a pixel cannot hold several parts: not with -fac");
   if (!options.ray.ambientFile.empty())
     commandLineError("-Sp", "an ambient file (-af) does not keep the parts of light");
 }
@@ -364,7 +364,7 @@ void checkParts(const Options& options) {
 void makeBins(Options& options) {
   SphereOptions& sphere = options.sphere;
   if (sphere.zoneOf.empty() && sphere.zoneCount.empty()) return;
-  if (!options.sphereMode) commandLineError("-Szb", "needs sphere mode; rcontrib has the bins of rays");
+  if (!options.sphereMode) commandLineError("-Szb", "needs sphere mode; for bins of rays, use rcontrib");
   if (sphere.zoneOf.empty()) commandLineError("-Szn", "needs -Szb, an expression of the bin");
   if (sphere.zoneCount.empty()) commandLineError("-Szb", "needs -Szn, the number of bins");
   if (sphere.zones > 0) commandLineError("-Szb", "bins and zones (-Sz) exclude each other");
@@ -380,16 +380,16 @@ void checkGlare(const Options& options) {
     if (given) commandLineError(name, fmt::format("not with -Su: {}", why));
   };
   if (!options.sphereMode) commandLineError("-Su", "needs sphere mode (-S)");
-  refuse(!options.goals.empty(), "-Sg", "goals emit importance, which does not glare");
-  refuse(!options.sensors.empty(), "-SG", "goals emit importance, which does not glare");
-  refuse(options.separate, "-Sp", "indices of glare have no parts");
-  refuse(sphere.basicRadiance, "-Sb", "glare is that of radiance");
-  refuse(sphere.zones > 0, "-Sz", "zones are those of means");
-  refuse(sphere.accuracy > 0, "-Sa", "more directions (-Sn) reduce the errors");
-  refuse(sphere.clamp > 0, "-Sf", "the clamp is for means");
+  refuse(!options.goals.empty(), "-Sg", "goals emit importance, but glare is computed from radiance");
+  refuse(!options.sensors.empty(), "-SG", "goals emit importance, but glare is computed from radiance");
+  refuse(options.separate, "-Sp", "a glare index is not a sum of parts");
+  refuse(sphere.basicRadiance, "-Sb", "glare is computed from radiance, not from basic radiance");
+  refuse(sphere.zones > 0, "-Sz", "zones apply to mean radiance");
+  refuse(sphere.accuracy > 0, "-Sa", "increase -Sn to reduce the errors");
+  refuse(sphere.clamp > 0, "-Sf", "the clamp applies to mean radiance");
   refuse(sphere.weights != Weights::silhouettes, "-Sw",
-         "it needs light sources that are integrated apart (c)");
-  refuse(!options.picture.empty(), "-Si", "pictures are those of points");
+         "glare needs -Sw c, which integrates light sources separately");
+  refuse(!options.picture.empty(), "-Si", "pictures show the light at points, not the view of an eye");
 }
 
 void checkTogether(Options& options, bool mostGiven) {
@@ -401,7 +401,7 @@ void checkTogether(Options& options, bool mostGiven) {
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   SphereOptions& sphere = options.sphere;
-  if (sphere.accuracy >= 1) commandLineError("-Sa", "1 is all of the mean" + percent(1));
+  if (sphere.accuracy >= 1) commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
   if (sphere.clamp > 0 && sphere.weights != Weights::silhouettes)
     commandLineError("-Sf", "needs -Sw c, which integrates light sources separately");
   options.ray.leastForPatches = sphere.raysForPatches();

@@ -226,7 +226,7 @@ class PixelReader {
     const std::string_view mark = bytes_.ahead(4);
     if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
       if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != row.size())
-        bad(bytes_.path(), "a row has another length");
+        bad(bytes_.path(), "the length of a row differs from the resolution line");
       bytes_.take(mark.size());
       for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
     } else {

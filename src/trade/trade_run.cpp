@@ -340,7 +340,8 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
   if (!options.sphereMode) throw rad::Error("-S-: only settings of sphere mode can be measured");
   if (options.sphere.glare.wanted) throw rad::Error("-Su: the errors of glare are stated by -oUVBG");
-  if (options.separate) throw rad::Error("-Sp: errors are those of sums, not of the parts of contributors");
+  if (options.separate)
+    throw rad::Error("-Sp: errors are measured for sums, not for the parts of contributors");
   requireSvgName("-Tp", options.plot, "the plot");
   Trade(options, used, messages, signals).run();
 }

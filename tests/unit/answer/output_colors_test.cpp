@@ -235,9 +235,9 @@ TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
             "-pS and -pM of three channels need the whole spectrum (-cw 380 780, or -cs above 3)");
   EXPECT_NO_THROW(parse({"rtrace", "-pS", "-cs", "4", "-cw", "400", "700", "s"}));
   EXPECT_EQ(faultOfOptions({"rsphere", "-pXYZ", "-ove", "s"}),
-            "-oe needs -pRGB or -pY: standard errors are those of red, green and blue, or of luminance");
+            "-oe needs -pRGB or -pY: standard errors exist for red, green and blue, or for luminance");
   EXPECT_EQ(faultOfOptions({"rsphere", "-cs", "6", "-ove", "s"}),
-            "-oe needs -co or -pY with -cs above 3: standard errors are those of bands, or of luminance");
+            "-oe needs -co or -pY with -cs above 3: standard errors exist for bands, or for luminance");
   EXPECT_NO_THROW(parse({"rsphere", "-pY", "-ove", "s"}));
   EXPECT_NO_THROW(parse({"rsphere", "-pY", "-cs", "6", "-ove", "s"}));
   EXPECT_NO_THROW(parse({"rsphere", "-co", "-cs", "6", "-ove", "s"}));

@@ -522,7 +522,7 @@ TEST(Glare, RefusesWhatItCannotAnswer) {
     return faultOf([&] { scene.glare(std::vector{eye}, options); });
   };
   EXPECT_EQ(fault({{1, 1, 1}, {0, 0, 1}}),
-            "record 1: the gaze 0 0 1 is vertical, so that nothing says which side is above: tilt it");
+            "record 1: the gaze 0 0 1 is vertical, so that the view has no upward direction: tilt it");
   EXPECT_EQ(fault({{1, 1, 1}, {0, 0, 0}}),
             "record 1: the gaze 0 0 0 has no length: it is a direction, not a point");
   EXPECT_EQ(fault({{1, 1, 1}, {0, NAN, 0}}), "eyes[0]: nan is not a finite number");

@@ -312,7 +312,7 @@ TEST(Picture, BadFilesAreSaidToBe) {
   const std::string four = runLengthCoded({{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 1, 2, 3}, {4, 5, 6, 7}});
   for (const char* width : {"3", "7", "65000"})
     EXPECT_EQ(errorOf(std::string("#?RADIANCE\n\n-Y 1 +X ") + width + "\n" + four),
-              ": bad picture file: a row has another length");
+              ": bad picture file: the length of a row differs from the resolution line");
   EXPECT_EQ(errorOf("#?RADIANCE\n\n-Y 1 +X 2\n" + std::string("\2\2\0\2\3\3", 6)),
             ": bad picture file: a run is too long");
   const std::string whole = coded(kOrders[0], true);
