@@ -118,10 +118,9 @@ CommandOptions commandOptions(const Options& options, Records records) {
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
   const bool usual = std::none_of(used.begin(), used.end(), isOutputs);
   if (glare && usual) parsed.outputs = "uUvVbBgGt";
-  refuse(
-      glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
-      "only the command rsphere writes o, d and n: the caller knows its eyes and gazes, and the length of the "
-      "list of glare sources is their number");
+  refuse(glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
+         "only the command rsphere writes o, d and n: the caller knows its eyes and gazes, and the length of "
+         "the list of glare sources is their number");
   if (records == Records::points && usual) {
     const bool zones = parsed.sphere.zones > 0, errors = haveStandardErrors(parsed.color);
     parsed.outputs =

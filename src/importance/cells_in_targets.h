@@ -1,6 +1,6 @@
 #pragma once
-// Solid angles of the directions at one point, for -Sw c. A direction inside a target represents the inverse
-// of the density of all directions there.
+// Solid angles of the directions at one point, for -Sw c. Inside a target, the cell of a direction is the
+// inverse of the density (1/sr) of all directions there.
 #include <cstdint>
 #include <span>
 #include <vector>
