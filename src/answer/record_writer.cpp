@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "rad_parser/printable.h"
+
 namespace rsphere {
 namespace {
 
@@ -34,7 +36,8 @@ void RecordWriter::flush() {
       continue;
     }
     const bool closed = errno == EPIPE;
-    const std::string text = fmt::format("write error: {}", std::strerror(errno));
+    const std::string text = fmt::format("{}{}write error: {}", rad::printableName(name_),
+                                         name_.empty() ? "" : ": ", std::strerror(errno));
     pending_.clear();  // a second attempt would write some bytes twice
     if (closed) throw ClosedPipe();
     throw rad::Error(text, rad::Status::system);

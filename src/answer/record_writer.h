@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "rad_parser/error.h"
 
@@ -31,8 +32,8 @@ class RecordSink {
 class RecordWriter final : public RecordSink {
  public:
   // The caller keeps the descriptor open, and later closes it. The destructor discards bytes that were not
-  // flushed.
-  explicit RecordWriter(int fd) : fd_(fd) {}
+  // flushed. name: of the file, for messages; empty: standard output.
+  explicit RecordWriter(int fd, std::string name = {}) : fd_(fd), name_(std::move(name)) {}
 
   void holdUntilFlush(bool hold) override { hold_ = hold; }
 
@@ -46,6 +47,7 @@ class RecordWriter final : public RecordSink {
 
  private:
   int fd_;
+  std::string name_;
   bool hold_ = false;
   std::string pending_;
 };

@@ -134,8 +134,8 @@ void addOutputs(const Add& add) {
            "File that the contributions of the next modifiers are written to instead of standard output, "
            "or, if it begins with !, the command that reads them. %s in the name stands for the "
            "modifier, which then has a file of its own, and %d (or %04d and the like) for the bin: a "
-           "file for each. In pictures (-fac) the number goes on from one modifier to the next. Without "
-           "them, modifiers with the same spec share a file, side by side.",
+           "file for each. In pictures (-fac with -x and -y) the number goes on from one modifier to the "
+           "next. Otherwise modifiers share the files whose names are equal, side by side.",
        .line = noLine});
   add({.name = "-fo",
        .value = +[](Options& o) -> bool& { return own(o).overwrites; },
@@ -185,7 +185,9 @@ uint32_t binCountOf(const TrackedName& tracked, BinFunctions& functions) {
   double count = 0;
   if (!tracked.bins.empty()) {
     const BinFunction bins = functions.compile("-bn", tracked.bins, tracked.definitionsOfBins);
-    if (bins.isConstant()) count = std::floor(bins.constant() + .5);
+    if (!bins.isConstant())
+      throw rad::Error(fmt::format("-bn '{}': the number of bins must not depend on the ray", tracked.bins));
+    count = std::floor(bins.constant() + .5);
   }
   if (!(count >= 1 && count <= kMostBins))
     throw rad::Error(

@@ -25,6 +25,10 @@ struct ContributionOptions : Options {
   bool values = false;               // -V  values instead of coefficients
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
+
+  // -x and -y count records; a sum of all rays is one, whatever they say.
+  bool countsRecords() const { return raysPerRecord > 0; }
+  bool hasResolution() const { return countsRecords() && width > 0 && height > 0; }
 };
 
 // The modifiers with their compiled bins. Throws rad::Error if a definition or an expression is invalid, or

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <functional>
 
 #include "answer/header.h"
 #include "answer/record_text.h"
@@ -42,12 +43,13 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
   const bool named = !plan.name.empty();
   if (named && !plan.modifier.empty()) layout.lines += fmt::format("MODIFIER={}\n", plan.modifier);
   if (named && !plan.bin.empty()) layout.lines += fmt::format("BIN={}\n", plan.bin);
-  if (options.height > 0)
+  if (options.countsRecords() && options.height > 0)
     layout.lines += fmt::format("NROWS={}\n", options.height * std::max<int64_t>(options.width, 1));
   // As in RADIANCE, only an output with one value per pixel has a resolution. rmtxop and dctimestep read the
-  // records of any other output as a matrix, directly after the header.
-  layout.resolution = options.width > 0 && options.height > 0 && plan.columnCount() == 1;
-  if (!layout.resolution) layout.lines += fmt::format("NCOLS={}\n", plan.columnCount());
+  // records of any other output as a matrix, directly after the header. With -x, one value is one pixel.
+  const bool pixels = options.countsRecords() && options.width > 0 && plan.columnCount() == 1;
+  layout.resolution = pixels && options.hasResolution();
+  if (!pixels) layout.lines += fmt::format("NCOLS={}\n", plan.columnCount());
   return layout;
 }
 
@@ -108,7 +110,7 @@ class ContributionOutputs::Output {
     } else {
       openFile(options);
     }
-    writer = std::make_unique<RecordWriter>(descriptor_);
+    writer = std::make_unique<RecordWriter>(descriptor_, plan.name);
   }
 
   // Opens a file with records, to complete it. Returns their number; empty if the file does not exist or has
@@ -127,7 +129,7 @@ class ContributionOutputs::Output {
     begin_ =
         recordsBeginIn(plan.name, file.contents(plan.name), options, layoutOf(options, plan, components));
     record_ = recordBytes(options, plan, static_cast<size_t>(components));
-    writer = std::make_unique<RecordWriter>(descriptor_);
+    writer = std::make_unique<RecordWriter>(descriptor_, plan.name);
     return (static_cast<size_t>(state.st_size) - begin_) / record_;
   }
 
@@ -138,21 +140,44 @@ class ContributionOutputs::Output {
       systemError(plan.name, "cannot be completed");
   }
 
+  void write(std::string_view bytes) {
+    orSayWhyNot([&] { writer->write(bytes); });
+  }
+  void flush() {
+    orSayWhyNot([&] { writer->flush(); });
+  }
+
   void close() {
-    writer->flush();
-    if (!pipe_) return;
-    const int status = pclose(std::exchange(pipe_, nullptr));
-    if (status != 0)
-      throw rad::Error(fmt::format("the command '{}' ended with {}", plan.name.substr(1),
-                                   WIFEXITED(status) ? fmt::format("status {}", WEXITSTATUS(status))
-                                                     : fmt::format("signal {}", WTERMSIG(status))),
-                       rad::Status::system);
+    flush();
+    if (pipe_) waitForCommand();
   }
 
   const OutputPlan plan;
   std::unique_ptr<RecordWriter> writer;
 
  private:
+  // A command that reads no further has mostly failed; its status says more than a broken pipe.
+  void orSayWhyNot(const std::function<void()>& writing) {
+    try {
+      writing();
+    } catch (const ClosedPipe&) {
+      if (!pipe_) throw;
+      waitForCommand();
+      throw rad::Error(
+          fmt::format("the command '{}' did not read all records", rad::printableName(plan.name.substr(1))),
+          rad::Status::signal);
+    }
+  }
+
+  void waitForCommand() {
+    const int status = pclose(std::exchange(pipe_, nullptr));
+    if (status != 0)
+      throw rad::Error(fmt::format("the command '{}' ended with {}", rad::printableName(plan.name.substr(1)),
+                                   WIFEXITED(status) ? fmt::format("status {}", WEXITSTATUS(status))
+                                                     : fmt::format("signal {}", WTERMSIG(status))),
+                       rad::Status::system);
+  }
+
   void openFile(const ContributionOptions& options) {
     struct stat state {};
     const bool exists = stat(plan.name.c_str(), &state) == 0;
@@ -190,7 +215,7 @@ ContributionOutputs::ContributionOutputs(const ContributionOptions& options, con
     output->open(options);
     writeHeader(*output->writer, options, sceneHeader, now,
                 layoutOf(options, output->plan, tracked.components()));
-    output->writer->flush();  // a communicating program may read the header before it sends a ray
+    output->flush();  // a communicating program may read the header before it sends a ray
   }
   if (completed.size() < outputs_.size()) recovered_ = 0;
   for (Output* output : completed) output->completeAfter(recovered_);
@@ -211,14 +236,14 @@ void ContributionOutputs::write(std::span<const double> sums, double factor) {
           text.spectrum(column);
       }
     text.end();
-    output->writer->write(bytes_);
+    output->write(bytes_);
     pending_ += bytes_.size();
   }
   if (pending_ > kMostPending && !holds_) flush();
 }
 
 void ContributionOutputs::flush() {
-  for (const auto& output : outputs_) output->writer->flush();
+  for (const auto& output : outputs_) output->flush();
   pending_ = 0;
 }
 

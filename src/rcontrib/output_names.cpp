@@ -72,21 +72,21 @@ std::string nameOf(const Format& format, const std::string& modifier, uint64_t n
 class Planner {
  public:
   explicit Planner(const ContributionOptions& options)
-      : pixels_(options.out == NumberFormat::rgbe),
-        pictures_(pixels_ && options.width > 0 && options.height > 0) {}
+      : pictures_(options.out == NumberFormat::rgbe && options.hasResolution()) {}
 
   void add(const TrackedName& tracked, ColumnRange columns) {
     const Format format = formatOf(tracked.output);
+    const bool named = format.has(Format::Kind::modifier);
     if (!format.has(Format::Kind::number)) {
-      join(nameOf(format, tracked.name, 0), tracked.name, columns, std::nullopt);
+      join(nameOf(format, tracked.name, 0), {tracked.name, named}, columns, std::nullopt);
       return;
     }
     uint64_t& before = numbersBefore_[tracked.output];
     for (uint32_t i = 0; i < columns.count; ++i) {
       const uint64_t number = before + i;
-      join(nameOf(format, tracked.name, number), tracked.name, {columns.first + i, 1}, number);
+      join(nameOf(format, tracked.name, number), {tracked.name, named}, {columns.first + i, 1}, number);
     }
-    if (pixels_ && !format.has(Format::Kind::modifier)) before += columns.count;
+    if (pictures_ && !named) before += columns.count;
   }
 
   std::vector<OutputPlan> plans() && {
@@ -100,17 +100,29 @@ class Planner {
   }
 
  private:
-  void join(const std::string& name, const std::string& modifier, ColumnRange columns,
+  struct Modifier {
+    const std::string& name;
+    bool inFileName;  // by %s
+  };
+
+  // As in RADIANCE, the header names the modifier if the name of the file does, or if the file has one value
+  // a record.
+  void join(const std::string& name, const Modifier& modifier, ColumnRange columns,
             const std::optional<uint64_t>& number) {
     const auto [found, isNew] = byName_.emplace(name, plans_.size());
-    if (isNew) plans_.push_back({name, {}, modifier, number ? fmt::format("{}", *number) : ""});
+    if (isNew) {
+      plans_.push_back({name, {}, "", number ? fmt::format("{}", *number) : ""});
+      if (modifier.inFileName || columns.count == 1) plans_.back().modifier = modifier.name;
+      isNamed_.push_back(modifier.inFileName);
+    }
     OutputPlan& plan = plans_[found->second];
     plan.columns.push_back(columns);
-    if (plan.modifier != modifier) plan.modifier.clear();
+    if (!isNew && !isNamed_[found->second]) plan.modifier.clear();
   }
 
-  const bool pixels_, pictures_;
+  const bool pictures_;
   std::vector<OutputPlan> plans_;
+  std::vector<bool> isNamed_;  // of each plan: by %s of the first -o with this name
   std::map<std::string, size_t> byName_;
   std::map<std::string, uint64_t> numbersBefore_;  // by -o: numbers already used for pictures
 };

@@ -17,7 +17,7 @@ struct ColumnRange {
 struct OutputPlan {
   std::string name{};  // of the file, or "!command"; empty: standard output
   std::vector<ColumnRange> columns{};
-  std::string modifier{};  // empty: more than one
+  std::string modifier{};  // named in the header; empty: none
   std::string bin{};       // the number contained in its name; empty: none
 
   uint32_t columnCount() const;

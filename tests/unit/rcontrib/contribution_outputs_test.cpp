@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include <array>
+#include <csignal>
 #include <filesystem>
 
 #include "rcontrib/record_sums.h"
@@ -17,8 +18,9 @@ namespace {
 // Modifiers a, b and so on, with so many bins each, in a scene that has none of them.
 class Columns {
  public:
-  explicit Columns(const std::vector<uint32_t>& bins)
-      : scene_(sceneOf("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n")),
+  explicit Columns(const std::vector<uint32_t>& bins, int64_t size = 0)
+      : size_(size),
+        scene_(sceneOf("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n")),
         prepared_(scene_, {}, IrradianceAt::none) {
     std::vector<TrackedModifier> modifiers;
     for (size_t i = 0; i < bins.size(); ++i)
@@ -29,6 +31,7 @@ class Columns {
   ContributionOptions options(const std::string& output, NumberFormat format) const {
     ContributionOptions options;
     options.sphereMode = false;
+    options.width = options.height = size_;
     options.out = format;
     for (const TrackedModifier& modifier : tracked->modifiers()) {
       options.tracked.push_back({});
@@ -50,6 +53,7 @@ class Columns {
   }
 
  private:
+  int64_t size_;  // of pictures; 0: none
   Scene scene_;
   PreparedScene prepared_;
 
@@ -67,9 +71,25 @@ TEST(OutputNames, HaveModifiersAndBins) {
 }
 
 TEST(OutputNames, NumbersOfPicturesGoOn) {
-  const Columns columns({2, 2});
+  const Columns columns({2, 2}, 3);
   EXPECT_EQ(columns.names("%d", NumberFormat::rgbe), "0(a,0)0 1(a,1)1 2(b,2)2 3(b,3)3 ");
   EXPECT_EQ(columns.names("%s%d", NumberFormat::rgbe), "a0(a,0)0 a1(a,1)1 b0(b,0)2 b1(b,1)3 ");
+}
+
+TEST(OutputNames, PixelsWithoutAPictureShareFilesByBin) {
+  EXPECT_EQ(Columns({2, 1}).names("%d", NumberFormat::rgbe), "0(,0)02 1(a,1)1 ");
+}
+
+TEST(OutputNames, AHeaderNamesTheModifierThatTheNameOfTheFileHas) {
+  const Columns columns({2, 1, 1});
+  EXPECT_EQ(Columns({2}).names("bins"), "bins(,)01 ");
+  EXPECT_EQ(Columns({1}).names("one"), "one(a,)0 ");
+  ContributionOptions options = columns.options("x_%s", NumberFormat::float32);
+  options.tracked[1].output = options.tracked[2].output = "x_a";
+  EXPECT_EQ(planOutputs(options, *columns.tracked)[0].modifier, "a");
+  options.tracked[0].output = options.tracked[1].output = "x_c";
+  options.tracked[2].output = "x_%s";
+  EXPECT_EQ(planOutputs(options, *columns.tracked)[0].modifier, "");
 }
 
 TEST(OutputNames, WrongOnesAreRefused) {
@@ -160,6 +180,41 @@ TEST(ContributionOutputs, FilesThatExistAreKeptOverwrittenOrCompleted) {
   options.overwrites = true;
   EXPECT_EQ(run(1, 3), 0u);
   EXPECT_LT(contents(a).size(), wholeA.size() + 40);
+}
+
+TEST(ContributionOutputs, ACommandThatReadsNothingIsAFaultWithItsStatus) {
+  std::signal(SIGPIPE, SIG_IGN);
+  const Columns columns({1});
+  const auto run = [&](const std::string& command) {
+    const ContributionOptions options = columns.options(command, NumberFormat::ascii);
+    ContributionOutputs outputs(options, *columns.tracked, {});
+    const std::vector<double> record(3);
+    for (int i = 0; i < 10000; ++i) outputs.write(record, 1);
+    outputs.close();
+  };
+  EXPECT_EQ(faultOf([&] { run("!exit 3"); }, rad::Status::system),
+            "the command 'exit 3' ended with status 3");
+  EXPECT_EQ(faultOf([&] { run("!exec <&-; exit 0"); }, rad::Status::signal),
+            "the command 'exec <&-; exit 0' did not read all records");
+}
+
+TEST(ContributionOutputs, AFullDiskIsReportedWithTheNameOfTheFile) {
+  const Columns columns({1});
+  ContributionOptions options = columns.options("/dev/full", NumberFormat::ascii);
+  EXPECT_EQ(faultOf([&] { ContributionOutputs(options, *columns.tracked, {}); }, rad::Status::system),
+            "/dev/full: write error: No space left on device");
+}
+
+TEST(ContributionOutputs, ASumOfAllRaysHasNoResolution) {
+  const Columns columns({1}, 2);
+  const Folder folder;
+  ContributionOptions options = columns.options(folder.path + "/x", NumberFormat::ascii);
+  options.raysPerRecord = 0;
+  ContributionOutputs(options, *columns.tracked, {}).close();
+  const std::string header = contents(folder.path + "/x");
+  EXPECT_NE(header.find("NCOLS=1"), std::string::npos);
+  EXPECT_EQ(header.find("NROWS"), std::string::npos);
+  EXPECT_EQ(header.find("-Y"), std::string::npos);
 }
 
 TEST(ContributionOutputs, ACommandThatFailsIsAFault) {
