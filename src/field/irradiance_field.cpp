@@ -19,52 +19,52 @@ namespace {
 
 using Tuning = tuning::IrradianceField;
 
-// -ar 0 sets no limit. Cells of this resolution, as -ar would give it, are the finest: they resolve crumbs on
-// a table (.15 mm in a room of 10 m, at -aa .15).
+// Substitute for -ar if it is 0 (no limit). Cells of this resolution resolve crumbs on a table: .15 mm in a
+// room of 10 m, at -aa .15.
 constexpr int kUnlimited = 65536;
 
-// The height above a curved surface at which one point sees another, in chords times the angle (rad) between
-// the normals. An arc rises by 1/8 of that above its chord; the rest is a margin.
+// Two points of a curved surface are tested for visibility at this height above it, in chords times the angle
+// (rad) between the normals. An arc rises above its chord by 1/8 of that product; the rest is a margin.
 constexpr double kBulge = .15;
 
-// Approximate overhead of an allocation and of an entry of the table (bytes).
+// Approximate memory overhead of an allocation and of a table entry (bytes).
 constexpr size_t kBlock = 16, kNode = 96;
 
 constexpr size_t kNoBound = SIZE_MAX;
 
-// On small surfaces that share the cells of their plane, finer cells are tried unless all sites see the
-// place: the sites may lie beside all of the surfaces, and a room may be smaller than a cell. 1 but for
-// rounding.
+// On small surfaces that share the cells of their plane, finer cells are tried unless the weights of the
+// sites that see the place add up to this: a room may be smaller than a cell, and sites may lie beside all of
+// the surfaces. The value is 1 minus a margin for rounding.
 constexpr double kAllServed = 1 - 1e-9;
 
-// The share of an answer that a level of cells gives: all below roughness 1, none above Tuning::kNoneAbove.
+// Weight of a level of cells in an answer: 1 if roughness is below 1, and 0 above Tuning::kNoneAbove.
 double shareOf(double roughness) {
   return std::clamp((Tuning::kNoneAbove - roughness) / (Tuning::kNoneAbove - 1), 0., 1.);
 }
 
-// A cell's site, and its light once that is gathered.
+// The gather site of a cell, and its light after it has been gathered.
 struct Site {
   CellKey key;
   bool usable = false;
   GatherSite at;
-  double reach = 0;
-  double finest = 0;             // the finest spacing that its surroundings ask for (world units)
-  bool smallObjectNear = false;  // smaller than the cell, so that interpolation would miss it
+  double reach = 0;              // harmonic mean distance of its surroundings
+  double finest = 0;             // finest spacing that its surroundings require (world units)
+  bool smallObjectNear = false;  // an object smaller than the cell, whose effect interpolation would miss
   std::atomic<const GatheredLight*> light{nullptr};
-  std::atomic<bool> begun{false};  // a thread gathers it, or has
+  std::atomic<bool> begun{false};  // a thread is gathering it or has gathered it
 
   ~Site() { delete light.load(std::memory_order_relaxed); }
 };
 
-// The bytes of all memories of a field.
+// Bytes used by all memories of a field.
 struct Use {
-  std::atomic<size_t> bytes{0};     // held
-  std::atomic<size_t> reserved{0};  // the sum of the limits
+  std::atomic<size_t> bytes{0};     // allocated
+  std::atomic<size_t> reserved{0};  // sum of the limits of the memories
 };
 
 }  // namespace
 
-// The sites of a field, until they fill its limit.
+// The sites of a field. It is replaced when they fill its limit.
 struct FieldMemory {
   const size_t limit;
   const std::shared_ptr<Use> use;
@@ -107,7 +107,7 @@ class IrradianceField::Cache {
   size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
 
  private:
-  // The two sides of a query.
+  // The two parties of a query: the memory that is searched, and the rays that fill gaps in it.
   struct Asked {
     FieldMemory& memory;
     FieldRays& rays;
@@ -126,8 +126,8 @@ class IrradianceField::Cache {
   const Scene& scene_;
   CellGrid grid_;
   double accuracy_;
-  double finestShare_;  // the finest spacing, in sizes of the room around
-  size_t bound_;        // on the bytes of all memories
+  double finestShare_;  // finest spacing, relative to the size of the surrounding room
+  size_t bound_;        // limit on the bytes of all memories
   std::shared_ptr<Use> use_ = std::make_shared<Use>();
   // The memory that new queries use.
   std::atomic<const FieldMemory*> newest_{nullptr};
@@ -137,7 +137,7 @@ class IrradianceField::Cache {
   std::optional<StoredSites> stored_;
 };
 
-// Lets a thread begin its query in the newest memory, which is replaced if it is full.
+// Starts a thread's query in the newest memory. Replaces that memory if it is full.
 void IrradianceField::Cache::enter(FieldReader& memory) {
   if (memory && memory.get() == newest_.load(std::memory_order_relaxed) && !memory->isFull()) return;
   const std::shared_ptr<FieldMemory> left = std::move(memory);
@@ -145,7 +145,8 @@ void IrradianceField::Cache::enter(FieldReader& memory) {
   const std::lock_guard lock(replacing_);
   if (!kept_ || kept_->isFull()) {
     full = std::move(kept_);
-    // One memory is queried while others leave a second one; less room is left where more are not freed yet.
+    // Half of the bound, since other threads may still read the previous memory; less if more are not yet
+    // freed.
     const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
     const size_t limit =
         bound_ == kNoBound ? kNoBound : std::min(bound_ / 2, bound_ - std::min(bound_, reserved));
@@ -188,11 +189,11 @@ const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& as
   return light;
 }
 
-// Fills in the sites of a level that see the place, and their light. False if there are none, or on a shared
-// chart too few.
+// Finds the sites of a level that see the place, and their light. False if there are none or, on a chart that
+// several surfaces share, too few.
 bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace& place, int level,
                                   const Asked& asked, SitesAround& around) {
-  // In steps from the middles of the cells.
+  // Coordinates in cells, relative to the middle of a cell.
   const double a = chart.u() / chart.stepU(grid_, level) - .5, b = chart.v() / chart.stepV(grid_, level) - .5;
   const auto i = static_cast<int64_t>(std::floor(a)), j = static_cast<int64_t>(std::floor(b));
   const double across = a - std::floor(a), along = b - std::floor(b);
@@ -202,13 +203,13 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
     const double weight = ((c & 1) ? across : 1 - across) * ((c >> 1) ? along : 1 - along);
     if (!(weight > kNegligible)) continue;
     Site* const site = &siteOf(chart, chart.cell(grid_, level, i + (c & 1), j + (c >> 1)), asked);
-    // At the edge of the surface neighbours are the same.
+    // At the edge of a surface, several of the four sites may be the same.
     int k = 0;
     while (k < around.count && sites[k] != site) ++k;
     if (k == around.count) {
       if (!site->usable) continue;
       const V3d way = place.point - site->at.point;
-      // Above the bulge of a curved surface.
+      // High enough that the surface's own curvature does not block the view.
       const double height =
           grid_.lift +
           (chart.isCurved() ? kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
@@ -223,7 +224,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
     around.served += weight;
   }
   if (around.count == 0 || (chart.isShared() && around.served < kAllServed)) return false;
-  // Sites that another thread gathers at the moment come last: that thread may have finished by then.
+  // Sites that another thread is gathering come last, since that thread may finish in the meantime.
   for (int k = 0; k < around.count; ++k) {
     Site& site = *sites[k];
     const bool busy =
@@ -235,7 +236,7 @@ bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace&
   return true;
 }
 
-// Whether a surface is not too small to have cells.
+// Whether a surface is large enough for separate cells.
 bool IrradianceField::Cache::hasOwnCells(const SurfaceChart& chart, const Asked& asked) {
   if (chart.extent() >= finestShare_ * grid_.size) return true;
   const Site& site =
@@ -243,14 +244,14 @@ bool IrradianceField::Cache::hasOwnCells(const SurfaceChart& chart, const Asked&
   return site.usable && chart.extent() >= site.finest;
 }
 
-// Whether the cells of a level are as fine as the surroundings of the place ask for.
+// Whether the cells of a level are as fine as the surroundings of the place require.
 bool IrradianceField::Cache::isFinest(const SurfaceChart& chart, int level, const Asked& asked) {
   if (level >= CellGrid::kLevels) return true;
   const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
   return grid_.side(level) <= (site.usable ? site.finest : finestShare_ * grid_.size);
 }
 
-// The level of the widest cells, of this level or finer, that the surroundings of their sites allow.
+// The widest cells at this level or finer that the surroundings of their sites allow. Returns their level.
 int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
   for (; !isFinest(chart, level, asked); ++level) {
     const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
@@ -260,15 +261,15 @@ int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, cons
   return level;
 }
 
-// The level of the widest cells that the surroundings of the place allow. The sites of wide cells may lie
-// outside of the gap that the place lies in.
+// The level of the widest cells that the surroundings of the place allow. gap: set to the height of the gap
+// that contains the place, because sites of wide cells may lie outside of the gap.
 int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
                                        const Asked& asked, double& gap) {
   const int level =
       levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
   gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
                              grid_.side(level) / Tuning::kFinestInGap);
-  // Cells that are wider than the gap is high may all have their sites outside of it, beside a narrow shelf.
+  // If cells are wider than a gap is high, as below a narrow shelf, all their sites may lie outside of it.
   const int resolving = grid_.levelOf(gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
 }

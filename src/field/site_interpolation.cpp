@@ -11,18 +11,17 @@ namespace {
 
 using Tuning = tuning::SiteInterpolation;
 
-// The factor on the gradients of the sites: with half of each, interpolation is exact for quadratic
+// Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
 // functions.
 constexpr float kSlopes = .5F;
 
-// The change of the gradient along the way between two sites is divided by this to predict the error of an
-// interpolation: it is f'' h for a quadratic function f, whose linear interpolation is wrong by f'' h^2 / 8
-// at most.
+// The error of an interpolation is predicted as the change of the gradient between two sites, along the
+// segment between them, divided by this. For a quadratic function f that change is f'' h^2, and the error of
+// a linear interpolation is at most f'' h^2 / 8.
 constexpr double kBySlopes = 8;
 
-// An extrapolation leaves at least this share of the interpolated light. Without a bound above 0, the light
-// beside bright surfaces becomes negative where the cells are wide (-aa 1 -ar 4 in an office: some pixels are
-// black).
+// Lower bound on an extrapolated light, relative to the interpolated one. Without it, the light beside bright
+// surfaces becomes negative where cells are wide (with -aa 1 -ar 4 in an office, some pixels are black).
 constexpr float kLeast = .05F;
 
 float luminance(const V3f& color) { return static_cast<float>(brightness(Color(color.x, color.y, color.z))); }

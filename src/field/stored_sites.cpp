@@ -7,9 +7,9 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kBetweenWrites = 256;  // sites that a process that is killed may lose
+constexpr size_t kBetweenWrites = 256;  // the number of sites that a killed process may lose
 
-// Calls each(number) for all numbers of a light, in the order of the file.
+// Calls each(number) for all numbers that describe a light, in the order of the file.
 template <class Light, class Each>
 void forNumbers(Light& light, Each each) {
   const auto three = [&](auto& v) {
@@ -28,7 +28,7 @@ void forNumbers(Light& light, Each each) {
   each(light.reach);
 }
 
-// The key, then the numbers of the light, in the byte order of the machine.
+// A record consists of the key and the numbers of the light, in the byte order of the machine.
 AmbientFile::Record recordOf(const CellKey& key, const GatheredLight& light) {
   std::array<float, 45> numbers;
   size_t n = 0;
@@ -89,7 +89,7 @@ void StoredSites::push(Fresh* first, Fresh* last) {
   }
 }
 
-// Appends the new sites to the file. wait: for other processes that write to it, too.
+// Appends the new sites to the file. wait: whether to wait for other processes that are writing to it.
 void StoredSites::write(bool wait) {
   if (!file_) return;
   const std::unique_lock lock(writing_, std::try_to_lock);

@@ -1,8 +1,8 @@
 #pragma once
-// The sites of an irradiance cache that an ambient file keeps (-af): those of earlier runs, and new ones that
-// wait to be written.
+// The sites of an irradiance cache that are stored in an ambient file (-af): sites from earlier runs, and new
+// sites that have not been written yet.
 //
-// Threads: any number may ask and add at once, and none waits.
+// Threads: any number may call find() and add() at the same time, and none waits.
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -22,10 +22,10 @@ class StoredSites {
   StoredSites& operator=(const StoredSites&) = delete;
   ~StoredSites();  // writes the new sites
 
-  // The light of a site of an earlier run; null where there is none.
+  // The light of a site from an earlier run; null if there is none.
   const GatheredLight* find(const CellKey& key) const;
 
-  // Keeps a new site. Every 256 of them are written, so that a process that is killed loses no more.
+  // Stores a new site. Sites are written in groups of 256, so that a killed process loses few of them.
   void add(const CellKey& key, const GatheredLight& light);
 
  private:
@@ -42,7 +42,7 @@ class StoredSites {
 
   std::unique_ptr<AmbientFile> file_;
   std::unordered_map<CellKey, GatheredLight, KeyHash> known_;
-  std::mutex writing_;                  // only tried: no thread waits for it
+  std::mutex writing_;                  // only locked by try_lock, so that no thread waits
   std::atomic<Fresh*> fresh_{nullptr};  // not in the file yet
   std::atomic<size_t> added_{0};
 };

@@ -12,22 +12,23 @@
 namespace rsphere {
 namespace {
 
-// The number of points of a cell that are tried as its site, where earlier ones do not lie on the surface. A
-// surface that fills an eighth of the cell is missed by (7/8)^24 = 4% of such cells.
+// Number of points in a cell that are tried in turn until one lies on the surface. If the surface fills an
+// eighth of a cell, (7/8)^24 = 4% of such cells get no site.
 constexpr int kCandidates = 24;
 
-// The number of a polygon's edges that its frame may be aligned with; the longest of them is chosen. A
-// polygon with more edges is round, and needs no frame along one of them.
+// Number of edges of a polygon that are compared to align the frame with the longest. A polygon with more
+// edges is nearly round, and any frame suits it.
 constexpr uint32_t kEdges = 16;
 
-// The number of cells, of at most this side, that an extent is divided into.
+// The number of cells that an extent is divided into, so that their side is at most `side`.
 double partsOf(double extent, double side, int least) {
   return std::max<double>(std::ceil(extent / side), least);
 }
 
-constexpr double kAside = .01371;     // fraction of a cell's side; irregular, to avoid round coordinates
-constexpr double kNormalStep = 1e-9;  // step to which components of plane normals are rounded
-constexpr SurfaceId kPlane(-2);       // in a key, instead of a surface
+// Offset from a cell's middle, relative to its side; an irregular number, unlike coordinates of scenes.
+constexpr double kAside = .01371;
+constexpr double kNormalStep = 1e-9;  // components of plane normals are rounded to multiples of this
+constexpr SurfaceId kPlane(-2);       // replaces the surface in the keys of shared planes
 
 bool isPlaced(const SurfacePlace& place) { return place.path && place.path->count > 0; }
 
@@ -120,7 +121,7 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
   double longest = 0;
   for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
     const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
-    // Among edges of equal length within rounding, the first is chosen.
+    // Edges whose lengths differ only by rounding are treated as equal, and the first is chosen.
     if (edge.length2() <= longest * (1 + 1e-9)) continue;
     longest = edge.length2();
     x_ = edge;
@@ -149,7 +150,7 @@ bool SurfaceChart::setRing(const Ring& ring, const SurfacePlace& place) {
   return setPlace(2 * outer, 2 * outer, place.point);
 }
 
-// Sets the normal on the side of the place, and the placement if the surface has one.
+// Sets the normal, on the side of the place, and the instances that contain the surface.
 void SurfaceChart::setNormal(V3d normal, const SurfacePlace& place) {
   if (isPlaced(place)) {
     placement_ = scene_->placementOf(*place.path);
@@ -163,7 +164,7 @@ void SurfaceChart::setNormal(V3d normal, const SurfacePlace& place) {
 
 V3d SurfaceChart::toWorld(const V3d& p) const { return placement_ ? placement_->toOuter.point(p) : p; }
 
-// Sets the extent, and the coordinates of the place; false if there is no extent.
+// Sets the extent and the coordinates of the place. False if the extent is zero.
 bool SurfaceChart::setPlace(double width, double height, const V3d& point) {
   width_ = width;
   height_ = height;
@@ -186,10 +187,10 @@ SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& pla
   chart.normal_.normalize();
   frame(chart.normal_, chart.x_, chart.y_);
   const V3d local = place.point - grid.origin;
-  // The offset of 3/8 keeps the boundaries between planes away from those in round numbers.
+  // Planes within a slab share a chart. The offset of 3/8 avoids slab boundaries at round numbers.
   const double offset = std::floor(chart.normal_.dot(local) / grid.lift + .375);
   chart.id_ = mixBits(chart.id_ ^ static_cast<uint64_t>(static_cast<int64_t>(offset)));
-  // In front of all surfaces that share this chart.
+  // Places the chart in front of all surfaces that share it.
   chart.origin_ = grid.origin + (offset + .625) * grid.lift * chart.normal_;
   chart.u_ = local.dot(chart.x_);
   chart.v_ = local.dot(chart.y_);
@@ -276,8 +277,8 @@ std::optional<GatherSite> SurfaceChart::siteWithin(const CellGrid& grid, const I
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
   const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
   for (int c = 0; c < kCandidates; ++c) {
-    // The first candidate is slightly off the middle. A wall may stand in the exact middle of a floor, and it
-    // would not occlude a site that lies in the wall's plane.
+    // The first candidate is slightly off the middle. If it lay in the plane of a wall, which often stands in
+    // the exact middle of a floor, the wall would not occlude it.
     const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
     if (auto site =
             siteAt(grid, (static_cast<double>(key.i) + in.x) * du, (static_cast<double>(key.j) + in.y) * dv))

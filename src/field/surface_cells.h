@@ -1,6 +1,6 @@
 #pragma once
-// A hierarchy of cells on surfaces, which is determined by the scene alone. Each cell has a site: a point of
-// the surface where light can be gathered for the cell's surroundings.
+// A hierarchy of cells on surfaces, which depends only on the scene. Each cell has a site: a point of the
+// surface at which light can be gathered for the surroundings of the cell.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ struct SurfacePlace {
   V3d point{0, 0, 0};
   V3d normal{0, 0, 1};  // unit, geometric (not perturbed), on the side where the light arrives
   SurfaceId surface;
-  const PlacementPath* path = nullptr;  // placement of the surface by instances; null: none
+  const PlacementPath* path = nullptr;  // instances that contain the surface; null: none
   double distance = 0;                  // length of the ray that hit the place (world units)
 };
 
@@ -26,68 +26,70 @@ struct CellKey {
   SurfaceId surface{0};
   int32_t level = 0;
   int64_t i = 0, j = 0;
-  uint64_t chart = 0;  // identifies the side of the surface and its placement by instances
+  uint64_t chart = 0;  // identifies the side of the surface and the instances that contain it
   bool operator==(const CellKey&) const = default;
   uint64_t hash() const;
 };
 
 // Parameters that all charts of a scene share.
 struct CellGrid {
-  double size = 1;      // longest side of the scene's bounds, side of the cells of level 0 (world units)
+  double size = 1;      // longest side of the scene's bounds, and side of a cell of level 0 (world units)
   double lift = 0;      // height of sites above their surface (world units), larger than rounding errors
   V3d origin{0, 0, 0};  // a corner of the bounds
 
   static constexpr int kLevels = 40;
-  std::array<double, kLevels + 1> sides{};  // by level (world units)
+  std::array<double, kLevels + 1> sides{};  // index: level (world units)
 
   CellGrid(const Box3d& bounds);
-  // The approximate side (world units) of the cells of a level; it halves from level to level.
+  // The approximate side of the cells of a level (world units). Each level halves it.
   double side(int level) const { return sides[static_cast<size_t>(level)]; }
-  // The first level whose cells are not larger than this.
+  // The first level whose cells are at most this wide.
   int levelOf(double side) const;
 };
 
-// Coordinates (world units) on the surface of a place. The frame of a polygon is aligned with its
-// longest edge, so that the cells of a rectangle have their sites on it. Spheres and cones have charts
-// of their outsides only.
+// A coordinate system (world units) on the surface that contains a place. For a polygon it is aligned with
+// the longest edge, so that the cells of a rectangle have their sites on the rectangle. Spheres and cones
+// have charts on their outsides only.
 class SurfaceChart {
  public:
   // Empty for surfaces without cells: meshes, the insides of curved surfaces, and spheres and cones within
   // instances. The scene and the path of the place must outlive the chart.
   static std::optional<SurfaceChart> of(const Scene& scene, const CellGrid& grid, const SurfacePlace& place);
 
-  // A chart of the plane through the place, shared by all surfaces in that plane. It serves surfaces that are
-  // too small to have cells themselves. Its sites need not lie on any surface.
+  // A chart of the plane through the place, which all surfaces in that plane share. It is used for surfaces
+  // that are too small for separate cells. Its sites need not lie on any surface.
   static SurfaceChart ofPlane(const CellGrid& grid, const SurfacePlace& place);
 
   double u() const { return u_; }  // of the place
   double v() const { return v_; }
-  // The longer side of the surface; the radius of a sphere or the larger one of a cone; infinite for a plane.
+  // The longer side of the surface; the radius of a sphere; the larger radius of a cone; infinite for
+  // ofPlane().
   double extent() const;
-  // The shorter side of a bounded flat surface; infinite for others.
+  // The shorter side of a bounded flat surface; infinite otherwise.
   double shorterSide() const { return width_ > 0 ? std::min(width_, height_) : HUGE_VAL; }
-  // From now on, cells divide the shorter side into at least this many parts. They are other cells than
-  // before, with other keys. REQUIRES a finite shorterSide().
+  // Makes cells divide the shorter side into at least this many parts. These cells and their keys differ from
+  // those before the call. REQUIRES a finite shorterSide().
   void divideAcross(int parts);
   bool isCurved() const { return ball_ || cone_; }
-  // A site at these shares, in [0, 1], of the extents of the chart, which for a sphere covers a sixth of it;
-  // empty beside the surface. REQUIRES a chart that is not of a plane.
+  // A site at a relative position, from 0 to 1 in each coordinate of the chart; for a sphere, a chart covers
+  // a sixth of it. Empty if that point does not lie on the surface. REQUIRES a chart that is not from
+  // ofPlane().
   std::optional<GatherSite> siteWithin(const CellGrid& grid, const Imath::V2d& shares) const;
   bool isShared() const { return isShared_; }  // by all surfaces in the plane
 
-  // Sides of the cells of a level. They divide the sides of a bounded surface into equal parts.
+  // Sides of the cells of a level. A whole number of cells fills each side of a bounded surface.
   double stepU(const CellGrid& grid, int level) const;
   double stepV(const CellGrid& grid, int level) const;
-  // The cell of a level that contains these coordinates; beyond the edge of the surface, the nearest cell.
+  // The cell of a level that contains these coordinates; outside of the surface, the nearest cell.
   CellKey cellAt(const CellGrid& grid, int level, double u, double v) const;
-  // The cell with these indices; beyond the edge of the surface, the nearest cell.
+  // The cell with these indices; outside of the surface, the nearest cell.
   CellKey cell(const CellGrid& grid, int level, int64_t i, int64_t j) const;
-  // The site of a cell, just above the surface. Empty if no point tried in the cell lies on the surface.
+  // The site of a cell, just above the surface. Empty if none of the points tried in the cell lies on the
+  // surface.
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;
 
  private:
-  // Each sets the chart to that of a shape around a place on the shape. Returns false if there is no chart
-  // there.
+  // Each sets the chart to that of a shape at a place on it. Returns false if the shape has no chart there.
   bool setBall(const Sphere& ball, const SurfacePlace& place);
   bool setCone(const Cone& cone, const SurfacePlace& place);
   bool setPolygon(const Polygon& polygon, const SurfacePlace& place);
@@ -103,13 +105,14 @@ class SurfaceChart {
   bool isShared_ = false;
   uint64_t id_ = 0;
   V3d origin_{0, 0, 0}, x_{1, 0, 0}, y_{0, 1, 0}, normal_{0, 0, 1};
-  double width_ = 0, height_ = 0;  // extent from the origin; 0: unbounded
-  int leastU_ = 1, leastV_ = 1;    // parts that cells divide the sides into
+  double width_ = 0, height_ = 0;  // size along x_ and y_, from origin_; 0: unbounded
+  int leastU_ = 1, leastV_ = 1;    // smallest number of cells along each side
   double u_ = 0, v_ = 0;
   std::optional<Placement> placement_;
   const Sphere* ball_ = nullptr;
   const Cone* cone_ = nullptr;
-  // A sphere is charted by the faces of a cube: the axis perpendicular to the face, and its sign.
+  // A sphere has six charts, the faces of a cube around it. These are the axis normal to the face, and its
+  // sign.
   int axis_ = 2;
   double sign_ = 1;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// Where much light comes from, so that directions are aimed there. See find_aims.h for how these places are
-// found.
+// Places that much light comes from, at which rays are aimed. find_aims.h finds them.
 #include <memory>
 
 #include "transport/bright_spots.h"
@@ -9,14 +8,14 @@
 
 namespace rsphere {
 
-// What the rays of gathers are aimed at; null: nothing.
+// The places at which the rays of gathers are aimed. Null: no rays are aimed at places of this kind.
 struct Aims {
   const Openings* openings = nullptr;
   const BrightSpots* spots = nullptr;
   const Highlights* highlights = nullptr;
 };
 
-// The owner of aims. Null: none were looked for, or none were found.
+// Owns the places of Aims. Null: they were not looked for, or none were found.
 struct FoundAims {
   std::unique_ptr<const Openings> openings;
   std::unique_ptr<const BrightSpots> spots;
@@ -25,7 +24,7 @@ struct FoundAims {
   operator Aims() const { return {openings.get(), spots.get(), highlights.get()}; }
 };
 
-// The aims of `more`; where it has none of a kind, those of `some`.
+// For each kind of place, the aims of `more`, or those of `some` if `more` has none.
 inline Aims joined(const Aims& some, const Aims& more) {
   return {more.openings ? more.openings : some.openings, more.spots ? more.spots : some.spots,
           more.highlights ? more.highlights : some.highlights};

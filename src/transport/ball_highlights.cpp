@@ -29,9 +29,9 @@ BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const L
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// Finds the sources that light a ball. A mirroring ball of radius r spreads the light of a distant source
-// evenly over all directions. At a distance d, the image of the source has (r / 2d)^2 times the solid angle
-// that the source has as seen from the ball.
+// Finds the sources that light a ball. A mirroring ball of radius r distributes the light of a distant source
+// uniformly over all directions: at a distance d, the solid angle of the source's image is (r / 2d)^2 times
+// the solid angle of the source as seen from the ball.
 BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& material, const Scene& scene,
                                          const Tracer& tracer, const LightSources& lights) {
   Ball ball{sphere, material.roughness, 0, 0, {}};
@@ -53,8 +53,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
     if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
     ball.intensity += c.intensity;
     ball.parts.push_back({c.part.part, ball.intensity});
-    // The highlight is taken for a normal distribution of directions; its variance includes that of a disk of
-    // the source's solid angle.
+    // The highlight is approximated by a normal distribution of directions. Its variance includes that of a
+    // disk with the source's solid angle.
     const double spread =
         sphere.radius * sphere.radius * (ball.roughness * ball.roughness + c.solidAngle / (8 * kPi));
     ball.hot += c.intensity * c.intensity / (2 * kPi * kPi * spread);
@@ -63,8 +63,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   return ball;
 }
 
-// Each ball is treated as a small source. Seen from nearby, its images lie at the focus, half a radius behind
-// its surface.
+// Each ball is treated as a small source. For points nearby, its images lie at its focus, half a radius below
+// the surface.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   for (const uint32_t number : near_.at(point)) {
@@ -76,7 +76,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     const double toImage = distance - ball.sphere.radius / 2, falloff = cosine / (toImage * toImage);
     if (!(ball.hot * falloff > least)) continue;
     aim.way[aim.count] = way;
-    // Reduced by more than rounding errors, so that no direction that meets the ball is rejected.
+    // Reduced by more than rounding errors, so that no direction towards the ball is rejected.
     aim.tangent2[aim.count] =
         (1 - 1e-12) * distance * distance - 1.0001 * ball.sphere.radius * ball.sphere.radius;
     aim.add(number, ball.intensity * falloff);
@@ -85,7 +85,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
   aim.finish(point);
 }
 
-// Whether a ray meets a ball, and the normal there.
+// Whether a ray meets a ball; sets the normal at the hit.
 bool BallHighlights::meets(const Ball& ball, const V3d& point, const V3d& direction, V3d& normal) {
   const V3d way = ball.sphere.center - point;
   const double along = way.dot(direction);
@@ -96,8 +96,8 @@ bool BallHighlights::meets(const Ball& ball, const V3d& point, const V3d& direct
   return true;
 }
 
-// Whether a ray meets a ball where it shows more than a negligible part of a source's highlight. It saves
-// most evaluations of lobes.
+// Whether a ray meets a ball at a point where a source's highlight is not negligible. This test avoids most
+// evaluations of lobes.
 bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d& direction,
                             const V3d& normal) {
   const V3d way = part.towards(ball.sphere.center + ball.sphere.radius * normal);
@@ -105,7 +105,7 @@ bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d&
   const V3d bisector = way / distance - direction;
   const double cosine = normal.dot(bisector);
   if (!(cosine > 0)) return false;
-  // bisector has twice the length of its cosine to both directions.
+  // The length of bisector is twice its cosine with both directions.
   const double most =
       (Highlight::kReach * ball.roughness + angle / std::max(cosine, tuning::Highlights::kEdgeOn)) * cosine;
   return bisector.length2() - cosine * cosine <= most * most;
@@ -128,7 +128,7 @@ double BallHighlights::density(const Aim& aim, const V3d& direction) const {
   double sum = 0;
   for (size_t i = 0; i < aim.count; ++i) {
     const double along = aim.way[i].dot(direction);
-    if (!(along > 0 && along * along > aim.tangent2[i])) continue;  // saves most of the work
+    if (!(along > 0 && along * along > aim.tangent2[i])) continue;  // rejects most directions
     const Ball& ball = balls_[aim.number[i]];
     V3d normal;
     if (!meets(ball, aim.point, direction, normal)) continue;

@@ -1,14 +1,14 @@
 #pragma once
-// Highlights of light sources on rough balls: chrome knobs, feet and handles. A ball sends the light of a
-// source in all directions, from a highlight that is far smaller and brighter than the ball. If rays of a
-// gather meet highlights only by chance, they cause much of the variance of indirect light beside the ball.
-// Some rays are therefore aimed at them and combined with the others by multiple importance sampling (balance
-// heuristic: Veach and Guibas 1995). The law of reflection gives the place of a highlight; curvature,
-// roughness and the source give its extent. Highlights that are hidden or misplaced change the variance, not
+// Highlights of light sources on rough balls, such as chrome knobs, feet and handles. A ball reflects the
+// light of a source in all directions, from a highlight that is far smaller and brighter than the ball. If
+// gathers hit highlights only by chance, highlights cause much of the variance of indirect light beside a
+// ball. Some rays are therefore aimed at them, with multiple importance sampling (balance heuristic: Veach
+// and Guibas 1995). The place of a highlight follows from the law of reflection; its extent follows from the
+// curvature, the roughness and the source. Highlights that are missed or misplaced change the variance, not
 // the mean.
 //
-// Smooth balls have none: an indirect ray that a smooth surface mirrors to a light source adds nothing, as in
-// rtrace.
+// Smooth balls are ignored: as in rtrace, light sources mirrored by smooth surfaces are not visible to
+// indirect rays.
 #include "transport/highlight_choice.h"
 #include "transport/proposals.h"
 #include "transport/reach_grid.h"
@@ -18,24 +18,25 @@ namespace rsphere {
 
 class BallHighlights {
  public:
-  // Uses spheres of plastic or metal. Shadow rays find which sources each of them sees. Keeps no references.
-  // least: a ball is ignored at points where its highlights add less than this to the variance, as in aim();
-  // above 0.
+  // Uses spheres of plastic or metal. Shadow rays find the sources that each sphere sees. Keeps no
+  // references. least: as in aim(); above 0. At points where a ball's highlights add less than this to the
+  // variance, the ball is not searched.
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
 
-  // The sampling distribution for a point of a diffuse surface. Each element is the highlights of one ball.
+  // The sampling distribution for a point of a diffuse surface. Each element represents the highlights of one
+  // ball.
   struct Aim : Proposals<kRoom> {
     std::array<V3d, kRoom> way;  // vectors to the centers of the balls (world units)
-    // Upper bound of the squared distance along a tangent (square world units).
+    // Upper bound on the squared distance to the point where a tangent touches the ball (square world units).
     std::array<double, kRoom> tangent2;
   };
 
-  // front: unit normal. least: threshold below which a ball is left out (square of W/sr/m2). It is compared
-  // with the variance that the ball's highlights are estimated to add to the radiance from a direction drawn
-  // by projected solid angle.
+  // front: unit normal. least: threshold (square of W/sr/m2) for the estimated variance that a ball's
+  // highlights add to the radiance from one direction, if directions are sampled by projected solid angle.
+  // Balls below it are ignored.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
   // As in Highlights (highlights.h).
@@ -45,13 +46,13 @@ class BallHighlights {
  private:
   struct Part {
     SourcePart source;
-    double upTo = 0;  // cumulative share of the ball's intensity
+    double upTo = 0;  // cumulative fraction of the ball's intensity
   };
   struct Ball {
     Sphere sphere;
     double roughness = 0;
-    double intensity = 0;  // W/sr, of brightness, sent into every direction
-    double hot = 0;        // the mean square of its radiance is this times cosine / distance^2
+    double intensity = 0;  // W/sr, of brightness; the same in every direction
+    double hot = 0;        // mean square radiance seen from a point = hot * cosine / distance^2
     std::vector<Part> parts;
   };
 

@@ -5,8 +5,8 @@
 namespace rsphere {
 namespace {
 
-// Steps of regula falsi to the reflecting point, and the error at which they end, relative to the angle
-// between the directions to both places.
+// Cap on the steps of the regula falsi, and the error at which it stops, relative to the angle between the
+// directions from the center to both places.
 constexpr int kSteps = 20;
 constexpr double kExact = 1e-4;
 
@@ -17,7 +17,8 @@ V3d mirroringNormal(const Sphere& ball, const V3d& point, const V3d& to, bool di
   const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
   if (!(across.length2() > 1e-20)) return a;
   const V3d side = across.normalized();
-  // An angle from a. Cosines and sines of differences of angles then need no trigonometric functions.
+  // An angle from a, given by its cosine and sine so that differences of angles need no trigonometric
+  // functions.
   struct Turn {
     double cosine, sine;
   };
@@ -25,8 +26,8 @@ V3d mirroringNormal(const Sphere& ball, const V3d& point, const V3d& to, bool di
   const double between = std::atan2(whole.sine, whole.cosine);
   const double away = fromCenter.length() / ball.radius,
                inverse = distant ? 0 : ball.radius / (to - ball.center).length();
-  // For the normal at an angle from a: the sine of the difference between its angles to the two places, times
-  // a positive factor. Its root is the reflecting point.
+  // For a normal at an angle from a: the sine of the difference between the angles of incidence and
+  // reflection, times a positive factor. It is zero at the reflecting point.
   const auto excess = [&](const Turn& turn) {
     const double inX = turn.cosine * away - 1, inY = turn.sine * away;
     const double outX = whole.cosine * turn.cosine + whole.sine * turn.sine - inverse,
@@ -42,7 +43,7 @@ V3d mirroringNormal(const Sphere& ball, const V3d& point, const V3d& to, bool di
     turn = {std::cos(angle), std::sin(angle)};
     const double at = excess(turn);
     if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
-    // The Illinois rule: the value at an end that stays twice is halved.
+    // The Illinois rule: if the same end of the interval is kept twice, its value is halved.
     if (at < 0) {
       low = angle;
       atLow = at;

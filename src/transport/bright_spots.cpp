@@ -16,29 +16,29 @@ namespace {
 
 using Tuning = tuning::BrightSpots;
 
-// Lower bound of the squared sine of half the angle that a spot subtends. Single precision cannot distinguish
-// smaller spots from points.
+// Lower bound on the squared sine of a spot's angular radius. In single precision, smaller spots cannot be
+// distinguished from points.
 constexpr float kNarrowest = 1e-6f;
 
-// The transmittance of a pane: that of clear single glazing, whatever the material, because only the relative
-// power of spots matters.
+// Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only the
+// relative power of spots matters.
 constexpr double kTransmittance = .9;
 
 // The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
 constexpr size_t kFewest = 12;
 
-// Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n points
-// that are spread evenly is smaller than what they are spread over, on average by (n + 1) / (n - 1): 1.18 for
-// the fewest.
+// Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n evenly
+// distributed points is smaller than the region that contains them, on average by (n - 1) / (n + 1). For the
+// fewest particles the correction is 1.18.
 constexpr double kWider = 1.15;
 
-// No rays are aimed at a spot whose center is nearer than the square root of this number of radii. The
-// formula for a small surface makes a disk at that distance half as bright again as it is: 1 / d^2 instead of
-// 1 / (d^2 + r^2).
+// No rays are aimed at a spot if the squared distance to its center is below this number of squared radii. At
+// that distance, the formula for a small surface makes a disk 1.5 times as bright as it is: it uses 1 / d^2
+// instead of 1 / (d^2 + r^2).
 constexpr float kApart = 2;
 
-// The surface area of a room, divided by the square of the mean distance across it. The mean chord of a
-// convex body is 4 V/S: in a room of 10 x 7 x 3 m 3.5 m, and the surface area is 20 times its square.
+// Surface area of a room, divided by the square of the mean distance across it. The mean chord of a convex
+// body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
 constexpr double kRoomSurface = 20;
 
 // Square of a negligible distance (world units).
@@ -50,7 +50,7 @@ V3d onDisk(const V3d& normal, double radius, double angle) {
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
 }
 
-// 1 - cos, without loss of precision for small angles.
+// 1 - cosine of the angle with this squared sine, without loss of precision for small angles.
 double versineOf(double sine2) { return sine2 / (1 + std::sqrt(1 - sine2)); }
 
 }  // namespace
@@ -77,7 +77,7 @@ struct BrightSpots::Node {
     spot.center = box.center();
     spot.radius = std::max(.5 * kWider * box.size().length(), 4 * kSamePlace);
     for (const Particle& p : some) {
-      if (p.free < spot.radius) continue;  // in a gap, whose light reaches no other surface
+      if (p.free < spot.radius) continue;  // in a narrow gap, whose light reaches no other surface
       spot.power += p.power;
       spot.normal += p.normal * p.power;
     }
@@ -89,7 +89,8 @@ struct BrightSpots::Node {
       found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
     return found;
   }
-  // The worth of the spot: the light that it reflects, times its brightness.
+  // The product of the light that the spot reflects and its brightness. Aiming at spots of higher worth
+  // reduces the variance more.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
     const auto axis = static_cast<int>(box.majorAxis());
@@ -121,7 +122,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
   return Particle{point, front, power, tracer.nearest(point, back, kFarAway, hit.surface).distance};
 }
 
-// The particles of distant sources that enter through openings, from the bright side to the dark side.
+// Traces particles from distant sources through the openings, from their bright side to their dark side.
 std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings& openings, const Scene& scene,
                                                                  const Tracer& tracer,
                                                                  const LightSources& lights) const {
@@ -186,9 +187,9 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   if (!(power > 0) || !(area > 0)) return {};
   const double usual = power / area;
 
-  // The particles are halved down to the smallest groups. Then groups are divided one after the other, each
-  // time the one whose worth grows most if it is divided down to the smallest. The growth by one division
-  // alone says too little: half a room gains next to nothing before the spot of its lamp is cut out.
+  // Particles are halved recursively down to the smallest groups. Then the group to divide next is the one
+  // whose worth grows most if it is divided down to the smallest groups. The growth by a single division
+  // would be misleading: dividing a room in half gains almost nothing until the spot of its lamp is isolated.
   struct Branch {
     Node node;
     double finest = 0;  // the worth of all the smallest groups in it
@@ -201,17 +202,16 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     auto halves = tree[i].node.halves();
     tree[i].halves = tree.size();
     tree.push_back({std::move(halves.first)});
-    tree.push_back({std::move(halves.second)});
-  }
+    tree.push_back({std::move(halves.second)});  // total worth of the smallest groups in it
+  }                                              // index of the first of its two halves; 0: not divided
   for (size_t i = tree.size(); i-- > 0;) {
     const size_t halves = tree[i].halves;
     tree[i].finest = halves > 0 ? tree[halves].finest + tree[halves + 1].finest : tree[i].node.worth();
   }
   std::vector<const Branch*> chosen{&tree.front()};
   while (spots_.count + chosen.size() < most) {
-    const auto best =
-        std::max_element(chosen.begin(), chosen.end(),
-                         [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
+    const auto best = std::max_element(
+        chosen.begin(), chosen.end(), [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
     if (!((*best)->gain() > 0)) break;
     const Branch* halves = &tree[(*best)->halves];
     *best = halves;
@@ -242,8 +242,8 @@ void BrightSpots::keep(const Spot& spot) {
   spots_.power[i] = static_cast<float>(spot.power);
 }
 
-// The contribution of a spot is that of a small flat surface with the spot's normal. Spots that contain the
-// point or are near to it are left out.
+// A spot is treated as a small flat surface with the spot's normal. Spots that contain the point or are near
+// it are ignored.
 RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& front, Aim& aim) const {
   const auto atX = static_cast<float>(point.x - spots_.origin.x),
              atY = static_cast<float>(point.y - spots_.origin.y),

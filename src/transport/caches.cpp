@@ -8,11 +8,12 @@
 namespace rsphere {
 namespace {
 
-// A fingerprint of everything but the scene that determines gathered light, the program's version included.
+// A fingerprint of everything that determines gathered light, except the scene; includes the program's
+// version.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
-  // All members by name, so that this does not compile for a new one. Add it below if it changes gathered
-  // light. Spectral runs (sampling) keep nothing, -aw changes nothing, -Sh does nothing where light
-  // is gathered for sites, and -af and -Sm say where and how much is kept.
+  // Names all members, so that adding an option makes this fail to compile. Add the new option below if it
+  // changes gathered light. Not used: `sampling`, since spectral runs are not stored; -aw and, where sites
+  // are gathered, -Sh, which have no effect; -af and -Sm, which only select where and how much is stored.
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
@@ -22,7 +23,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{7});  // increase it if the method of gathering changes between two versions
+  print.add(uint64_t{7});  // increase this if gathering changes within a program version
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
@@ -70,7 +71,7 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   const Scene& scene = prepared.scene();
   const Box3d& bounds = prepared.tracer().bounds();
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));
-  // Where there is no distant source, openings only bring the light of lamps from one room to another.
+  // Without a distant source, openings only transmit the light of lamps from one room to another.
   const bool isDaylit = aims.openings && !prepared.lights().distant().empty();
   if (o.ambientBounces > 1)
     caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, fieldOptions(o),

@@ -10,24 +10,24 @@
 
 namespace rsphere {
 
-// The options of the fields of interpolated light.
+// The options of the irradiance cache and the coarse solution.
 FieldOptions fieldOptions(const RayOptions& options);
 
 struct Caches {
   // Light at the first diffuse surfaces; null without interpolation (-aa 0).
   std::unique_ptr<IrradianceField> field;
-  // Light at second and later diffuse surfaces; null where paths are followed instead (-aa 0, -ab 1).
+  // Light at the second and later diffuse surfaces; null if paths are followed instead (-aa 0, -ab 1).
   std::unique_ptr<CoarseSolution> coarse;
-  // The aims of gathers for the caches. They do not depend on the tracer that needs the light.
+  // Places at which gathers for the caches aim rays. They are the same for all tracers that use the caches.
   Aims aims;
 };
 
-// The caches that the options ask for, with the light of the ambient file in them (-af). Keeps references to
-// the scene and to what the aims refer to. warn: gets the warnings of the ambient file.
+// Makes the caches that the options require, and loads the light of the ambient file (-af). Keeps references
+// to the scene and to the places of `aims`. warn: receives warnings about the ambient file.
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn);
 
-// The number of diffuse bounces beyond a patch of the coarse solution: one less where patches never serve the
-// first surface.
+// The number of diffuse bounces beyond a patch of the coarse solution. It is one less if patches are never
+// used at the first surface.
 inline int bouncesBeyondPatches(const RayOptions& options) {
   return options.ambientBounces - (options.leastForPatches > 0 ? 0 : 1);
 }

@@ -11,7 +11,7 @@ namespace {
 
 using Tuning = tuning::Highlights;
 
-// Places along a cylinder from which shadow rays are sent to a source, as shares of its length.
+// Places along a cylinder from which shadow rays are sent to a source, as fractions of its length.
 constexpr double kPlaces[] = {.5, .1, .9};
 
 V3d across(const Cone& cylinder, const V3d& way) { return way - way.dot(cylinder.axis) * cylinder.axis; }
@@ -21,7 +21,7 @@ V3d nearestOnAxis(const Cone& cylinder, const V3d& place) {
          std::clamp((place - cylinder.base).dot(cylinder.axis), 0., cylinder.length) * cylinder.axis;
 }
 
-// The share of a normal distribution in an interval.
+// The fraction of a normal distribution that lies in an interval.
 double shareWithin(double low, double high, double mean, double variance) {
   const double scale = 1 / std::sqrt(2 * variance);
   return (std::erf((high - mean) * scale) - std::erf((low - mean) * scale)) / 2;
@@ -40,7 +40,7 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   keepLargest(cylinders_, cylinders_.size(), [](const Cylinder& cylinder) { return cylinder.hot; });
   std::vector<ReachGrid::Reach> reaches;
   for (const Cylinder& c : cylinders_) {
-    // From farther away, a highlight is longer than the cylinder.
+    // At distances beyond `whole`, a highlight is longer than the cylinder, which shows only a part of it.
     const double whole = c.shape.length / (2 * std::sqrt(kPi) * c.roughness), reach = c.hot / least;
     reaches.push_back({c.shape.base, c.shape.base + c.shape.length * c.shape.axis,
                        reach > whole ? std::sqrt(reach * whole) : reach});
@@ -48,9 +48,9 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   if (!reaches.empty()) near_ = ReachGrid(reaches, tracer.bounds());
 }
 
-// Finds the sources that light a cylinder. If the plane of reflection is perpendicular to the axis, the image
-// of a distant source has, at a distance d, r / 2d times the solid angle that the source has as seen from the
-// cylinder of radius r. In other planes, cosines change this by a factor near 1.
+// Finds the sources that light a cylinder of radius r. If the plane of reflection is perpendicular to the
+// axis, the image of a distant source, seen from a distance d, has r / 2d times the solid angle of the source
+// as seen from the cylinder. In other planes, cosines change this by a factor near 1.
 CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Opaque& material,
                                                      const Scene& scene, const Tracer& tracer,
                                                      const LightSources& lights) {
@@ -88,9 +88,9 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   return cylinder;
 }
 
-// The mirroring place makes the path from the source to the point as short as possible. Projected along the
-// axis, it is therefore the mirroring place of a circle, whatever the heights of both ends are. Its height is
-// that of a straight path if the circle is unrolled.
+// The reflection minimizes the length of the path from the source to the point. Projected along the axis, the
+// reflecting place is therefore that of a circle, regardless of the heights of both ends. Its height follows
+// from unrolling the cylinder, which makes the path straight.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   const double leastOfOne = least / Tuning::kLeastOfFew;
@@ -117,7 +117,7 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
       const double place = height + near * (part.distant ? to.dot(shape.axis) / beside
                                                          : (to.dot(shape.axis) - height) / (near + far));
-      // If the middle lies within one length beyond an end, the edge of the highlight may still lie on the
+      // If the middle of the highlight lies within one length beyond an end, its edge may still lie on the
       // cylinder.
       if (place < -shape.length || place > 2 * shape.length) continue;
       const V3d mirror = shape.base + place * shape.axis + radius * normal;

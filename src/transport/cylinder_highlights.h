@@ -1,8 +1,9 @@
 #pragma once
-// Highlights of light sources on rough cylinders: chrome legs of chairs, rails and pipes. As on balls
-// (ball_highlights.h), they are far smaller and brighter than the cylinder, but a cylinder does not send the
-// light of a source in all directions: as seen from a point, the highlight lies where the directions to both
-// make equal angles with the axis, or beyond the ends. Each highlight is therefore found for each point.
+// Highlights of light sources on rough cylinders, such as chrome legs of chairs, rails and pipes. As on balls
+// (ball_highlights.h), they are far smaller and brighter than the object. A highlight is visible at the place
+// where the directions to the point and to the source make equal angles with the axis; if that place lies
+// beyond an end, there is none. Unlike those of a ball, highlights are therefore searched for each point
+// separately.
 #include "transport/highlight_choice.h"
 #include "transport/proposals.h"
 #include "transport/reach_grid.h"
@@ -12,23 +13,23 @@ namespace rsphere {
 
 class CylinderHighlights {
  public:
-  // Uses cylinders and tubes of plastic or metal, seen from outside. Shadow rays find which sources each of
-  // them sees. Keeps a reference to lights. least: nothing is aimed at where a cylinder's highlights add less
-  // than this to the variance, as for aim(); above 0.
+  // Uses cylinders and tubes of plastic or metal, seen from outside. Shadow rays find the sources that each
+  // of them sees. Keeps a reference to lights. least: as in aim(); above 0. At points where a cylinder's
+  // highlights add less than this to the variance, the cylinder is not searched.
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimedRoom / 2;
 
-  // The sampling distribution for a point of a diffuse surface. Each element is the highlight of a part of a
-  // source on a cylinder.
+  // The sampling distribution for a point of a diffuse surface. Each element represents the highlight of one
+  // part of a source on one cylinder.
   struct Aim : Proposals<kRoom> {
     std::array<HighlightLobe, kRoom> lobe;
   };
 
-  // front: unit normal. least: threshold below which nothing is aimed at (square of W/sr/m2). It is compared
-  // with the variance that all highlights together are estimated to add to the radiance from a direction
-  // drawn by projected solid angle.
+  // front: unit normal. least: threshold (square of W/sr/m2) for the estimated variance that all highlights
+  // together add to the radiance from one direction, if directions are sampled by projected solid angle.
+  // Below it, no direction is aimed at them.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
   // As in Highlights (highlights.h).
@@ -44,8 +45,8 @@ class CylinderHighlights {
   struct Cylinder {
     Cone shape;
     double roughness = 0;
-    // Upper bound of the variance that its highlights add to the radiance from a direction drawn by projected
-    // solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
+    // Upper bound on the variance that its highlights add to the radiance from a direction sampled by
+    // projected solid angle, times the distance from the cylinder (W2/sr2/m4 * world units).
     double hot = 0;
     std::vector<Part> parts;
   };

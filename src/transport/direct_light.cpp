@@ -14,16 +14,15 @@ namespace {
 
 using Tuning = tuning::DirectLight;
 
-// Rays of a gather do not divide sources into parts if the jitter (-dj) is larger than this: samples then lie
-// on more than half of their source, so that the parts would overlap.
+// If the jitter (-dj) is larger than this, gathers do not divide sources into parts: each sample is spread
+// over more than half of its part, so that neighbouring samples would overlap.
 constexpr double kWideJitter = .5;
 
-// Up to this number, contributions are ranked by comparing all pairs instead of by sorting: n^2 / 2
-// comparisons without branches take less time than n log n, half of which are mispredicted. By measurement of
-// time.
+// Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
+// comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
 
-// Kinds of sources whose visibility is estimated separately, because they are occluded for different reasons.
+// Kinds of sources. The visibility of each is estimated separately, because their causes of occlusion differ.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 
@@ -33,7 +32,7 @@ RayKind kindOfShadow(const SurfaceHit& hit, const V3d& direction) {
   return through ? kTransmittedShadow : kReflectedShadow;
 }
 
-// The number of sources that were tested for shadows, and of those that are visible.
+// The number of sources of a kind that were tested for shadows, and the number of those that are visible.
 struct Tests {
   int tested = 0, visible = 0;
 
@@ -87,9 +86,9 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
          (i + 1 == scratch_.samples.size() || scratch_.samples[i + 1].source != sample.source);
 }
 
-// Sets `value` to the radiance of a sample that arrives at the receiver; false if none arrives. to.value: its
-// radiance without occlusion. to.coefficient: if surfaces in the way may transmit light, samples of a lobe
-// estimate nothing, so that their part is added back.
+// Sets `value` to the radiance of a source sample that arrives at the receiver; false if none arrives.
+// to.value: the radiance without occlusion. If the shadow ray has to be followed through surfaces that may
+// transmit light, samples of a lobe do not estimate it, and to.coefficient gets the part for the lobe back.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -118,7 +117,7 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   return !follow || maxChannel(value) > kNegligible;
 }
 
-// Makes a ray that leaves the receiver the shadow ray of a contribution; false if it is not to be followed.
+// Turns `next` into the shadow ray of a contribution; false if the path ends here.
 bool DirectLight::aim(NextRay& next, Receiver at, const Contribution& to) {
   if (!goesOnAlong(next, t_, state_)) return false;
   next.context.known = isLeftOut(at, to.sample->source) ? Known::joined : Known::no;
@@ -135,7 +134,7 @@ Radiance DirectLight::valueFromSource(Receiver at, const Contribution& to) {
   return aim(next, at, to) ? follower_.follow(next.query, next.context).value : Radiance();
 }
 
-// Shows the observer a shadow ray that reaches its source with nothing in its way.
+// Shows the observer an unoccluded shadow ray at the source that it has reached.
 void DirectLight::show(Receiver at, const Contribution& to) {
   const SourceSample& sample = *to.sample;
   NextRay next(at.end, kindOfShadow(at.end.hit, sample.direction), Coefficient(1));
@@ -152,7 +151,7 @@ void DirectLight::show(Receiver at, const Contribution& to) {
   (*state_.request.observer)(end, result);
 }
 
-// count to the power of -dc, from a table, because computing a power takes as long as sampling a source.
+// count to the power of -dc. Uses a table, because computing a power takes as long as sampling a source.
 size_t DirectLight::lookAheadOf(size_t count) {
   for (size_t n = lookAheads_.size(); n <= count; ++n)
     lookAheads_.push_back(
@@ -160,10 +159,10 @@ size_t DirectLight::lookAheadOf(size_t count) {
   return lookAheads_[count];
 }
 
-// Sorts the contributions by brightness, brightest first; equal contributions keep their order.
+// Sorts the contributions by brightness, brightest first. Equal contributions keep their order.
 void DirectLight::rankByBrightness(uint32_t count) {
-  // If there are few contributions, the rank of each is found by comparing all pairs without branches. Half
-  // of the branches of std::sort would be mispredicted.
+  // A few contributions are ranked by comparing all pairs without branches; std::sort would mispredict half
+  // of its branches.
   if (count > kFew) {
     std::iota(scratch_.order.begin(), scratch_.order.begin() + count, 0);
     std::sort(scratch_.order.begin(), scratch_.order.begin() + count, [&](uint32_t a, uint32_t b) {
@@ -188,8 +187,8 @@ void DirectLight::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) scratch_.order[before[i]] = i;
 }
 
-// Fills the scratch memory with the unoccluded contributions of all source samples that are not
-// black. Returns their number.
+// Fills the scratch memory with the unoccluded contributions of all source samples, except black ones.
+// Returns the number of contributions.
 uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                                         const PartOfLobe* partOfLobe) {
   const RayOptions& o = t_.options();
@@ -197,15 +196,15 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const PathContext& ray = at.end.context;
   const bool divides =
       o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
-  // The noise of later bounces, and of the directions of sphere mode, averages out.
+  // Not needed after indirect bounces and in sphere mode, where the noise averages out.
   const bool splitsBalls = isRayMode(settings_.mode) && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
                            splitsBalls, !isRayMode(settings_.mode)};
-  // Known sources need no shadow rays if paths from both ends bring all of their direct light. Only light
-  // that has passed unknown surfaces would be left to shadow rays.
+  // If paths from both ends estimate all direct light of known sources, no shadow rays are sent to them.
+  // Otherwise shadow rays still estimate their light that passes unknown surfaces.
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->coverage().passUnknown ? at.leftToBothEnds : nullptr;
-  // If the observer is to be shown all shadow rays, those to hidden sources are traced too.
+  // If the observer wants to see all shadow rays, those to hidden sources are traced too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
                                                 : t_.lights().hidden().notHiddenFrom(at.point, front);
@@ -243,8 +242,8 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   return count;
 }
 
-// Estimates the sum of the contributions from the one ranked `first` on by one of them, which is drawn
-// with a probability proportional to its unoccluded brightness.
+// Estimates the sum of the contributions with ranks from `first` on. Samples one of them with a probability
+// proportional to its unoccluded brightness.
 void DirectLight::addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value) {
   double rest = state_.random.uniform() * scratch_.remaining[first];
   size_t chosen = first;
@@ -262,7 +261,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   if (count == 0) return;
   const double threshold = t_.options().directThreshold / ray.weight;
 
-  // The number of next untested contributions whose sum decides whether testing goes on (-dc).
+  // Testing continues while the sum of this number of the next contributions is large enough (-dc).
   size_t lookAhead = count;
   if (threshold > 0) {
     rankByBrightness(count);
@@ -289,11 +288,12 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
     Contribution& c = ranked(tested);
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // After an indirect bounce, an unbiased estimate is better: its noise averages out, and a bias would not.
+  // After an indirect bounce, the rest is estimated without bias: noise averages out there, and bias would
+  // not.
   if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
-  // The visibility of sources that are too weak to be tested is taken to be the mean of the tested sources of
-  // the same kind, because the visibility of lamps does not predict that of the sun, or the reverse. The
-  // brightest source of each kind is therefore always tested.
+  // Sources too weak to be tested are assumed to be visible as often as the tested sources of the same kind.
+  // Kinds are distinguished because the visibility of lamps does not predict that of the sun, and vice versa.
+  // For this, the brightest source of each kind is always tested.
   for (; tested < count; ++tested) {
     Contribution& c = ranked(tested);
     Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];
@@ -304,7 +304,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   }
 }
 
-// Estimates the sum over all sources from -Ss sources, drawn in proportion to their weights.
+// Estimates the sum over all sources from -Ss sources, sampled in proportion to their weights.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
   const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point, front);
@@ -326,7 +326,7 @@ void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoeffic
   addSamples({end, end.hit.point}, source, how, coefficientOf, 1, value);
 }
 
-// Adds factor times the light of all samples of one source.
+// Adds the light of all samples of one source, multiplied by `factor`.
 void DirectLight::addSamples(Receiver at, LightId source, const SourceSampling& how,
                              DirectCoefficient coefficientOf, double factor, Radiance& value) {
   scratch_.samples.clear();

@@ -1,8 +1,8 @@
 #pragma once
 // Next-event estimation: direct light from the light sources, with its shadows.
 //
-// All sources are sampled, the brightest contributions are tested for shadows first, and those too weak to
-// matter are estimated without a shadow ray (-dt, -dc). With -Ss sources are drawn at random instead.
+// All sources are sampled, and the brightest contributions are tested for shadows first. Those too weak to
+// matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is sampled.
 #include <vector>
 
 #include "transport/function_ref.h"
@@ -13,17 +13,17 @@
 
 namespace rsphere {
 
-// The share of a source's radiance that a surface scatters back along a ray, given the direction to the
-// source (unit) and the solid angle (sr) of a sample of it.
+// The fraction of a source's radiance that a surface scatters back along a ray. toSource: direction to the
+// source (unit); solidAngle: that of the source sample (sr).
 using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
-// The part of a DirectCoefficient that samples of a highlight's lobe estimate instead of shadow rays
-// (shared_highlights.h). It is left out for a sample of the source only if nothing lies between it and the
-// surface.
+// The part of a DirectCoefficient that is estimated by samples of the lobe instead of shadow rays
+// (shared_highlights.h). It is subtracted for a source sample only if the sample is not occluded.
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight {
-  // The binary logarithm of the number of blockers that are kept: 16 kB, half of a core's first cache.
+  // Binary logarithm of the size of the table of blockers, which takes 16 kB, half of a core's first-level
+  // cache.
   static constexpr int kBlockerBits = 12;
 
  public:
@@ -36,23 +36,23 @@ class DirectLight {
         follower_(follower),
         blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
-  // Where light arrives: at the end of a ray, or beyond it for light that a thick surface transmits (world).
+  // The place that is lit: the end of a ray, or the far side of a thick surface that transmits light (world).
   struct Receiver {
     const RayEnd& end;
     const V3d& point;
-    // If not null, light of known sources is left out, unless it has met a surface that is not known: paths
-    // from both ends bring it (plain_surfaces.h).
+    // If not null, light from known sources is omitted, because paths from both ends estimate it
+    // (plain_surfaces.h), unless it has passed a surface that is not known.
     const PlainSurfaces* leftToBothEnds = nullptr;
   };
 
   // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter that radiance already is, the
-  // fewer sources are tested. front: for a surface that transmits no light, its normal, because all
-  // coefficients are 0 behind it; otherwise the null vector. partOfLobe: null if shadow rays estimate all of
-  // the light.
+  // fewer sources are tested for shadows. front: normal of a surface that transmits no light, behind which
+  // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the
+  // light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 
-  // The same, but estimated from -Ss sources drawn at random.
+  // The same, estimated from -Ss randomly selected sources.
   void addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front, Radiance& value);
 
   // Adds the light of one source that is scattered at the end of a ray (W/sr/m2).
@@ -92,15 +92,15 @@ class DirectLight {
   const PathSettings& settings_;
   PathState& state_;
   RayFollower& follower_;
-  // Memory of one call. Calls do not nest, because shadow rays never compute direct light. Elements beyond
-  // those of the current call are left over from earlier calls.
+  // Memory that all calls reuse, so that none is allocated. Calls do not nest, because shadow rays never
+  // compute direct light. Elements beyond those of the current call are left over from earlier calls.
   struct Scratch {
     std::vector<SourceSample> samples;
     std::vector<Contribution> contributions;
     std::vector<double> brightness;  // of the contributions
-    // The part of each contribution's coefficient that PartOfLobe left to samples of the lobe; empty if none.
+    // For each contribution, the part of its coefficient that PartOfLobe gave; empty without a PartOfLobe.
     std::vector<Coefficient> ofLobe;
-    std::vector<uint32_t> order;  // of the contributions, brightest first where not all are tested
+    std::vector<uint32_t> order;  // of the contributions; brightest first if not all of them are tested
     std::vector<double> remaining;
     std::vector<double> sourceWeights;
   };
@@ -108,9 +108,9 @@ class DirectLight {
   double rankedBrightness(size_t i) const { return scratch_.brightness[scratch_.order[i]]; }
 
   Scratch scratch_;
-  // The index is a hash of a surface and a source, the value what blocked the last shadow ray between them.
+  // A hash table: the last blocker of a shadow ray between a surface and a source, which is tested first.
   std::vector<uint32_t> blockers_;
-  std::vector<size_t> lookAheads_;  // values of lookAheadOf(), by its argument; computed as far as needed
+  std::vector<size_t> lookAheads_;  // results of lookAheadOf(), by its argument; computed when needed
 };
 
 }  // namespace rsphere

@@ -14,7 +14,7 @@ namespace {
 
 using Tuning = tuning::Interpolation;
 
-// An imagined ray that has hit the site, the parent of the gather's rays.
+// The parent of the rays of a gather: a fictitious ray that has hit the site.
 struct Root {
   RayQuery query;
   PathContext context;
@@ -53,7 +53,7 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   return cells.sum(radiance, distance, nearest, x, y, site.normal);
 }
 
-// IndirectLight::link() adds what the rays find after their first hit.
+// IndirectLight::link() adds the light and the links beyond the first hits.
 PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, site.normal);
   PatchLinks links;
@@ -108,7 +108,7 @@ bool TracedFieldRays::sees(const V3d& from, const V3d& to) {
 }
 
 bool TracedFieldRays::smallObjectNear(const GatherSite& site, double side, double lift) {
-  // Rounding must not make an object that is as wide as the cell seem smaller.
+  // Reduces the limit, so that rounding does not make an object that is as wide as the cell seem smaller.
   constexpr double kRounding = 1e-6;
   return t_.tracer().anySmallNear({site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The rays that the irradiance cache and the coarse solution ask for (field/field_rays.h).
+// Traces the rays that the irradiance cache and the coarse solution request (field/field_rays.h).
 #include "field/field_rays.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
@@ -7,10 +7,10 @@
 
 namespace rsphere {
 
-// Traces what fields ask for, on behalf of a path.
+// Traces these rays on behalf of a path.
 class TracedFieldRays final : public FieldRays {
  public:
-  // Keeps references. depth: of the ray that needs light; only the limit of nesting depends on it.
+  // Keeps references. depth: that of the ray that needs the light; it only matters for the limit on nesting.
   TracedFieldRays(const PreparedScene& prepared, RayFollower& path, int depth)
       : t_(prepared), path_(path), depth_(depth) {}
 

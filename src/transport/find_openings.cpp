@@ -19,7 +19,7 @@ namespace {
 
 using Tuning = tuning::Openings;
 
-// Whether panes close most of a hole: near its middle and near its corners.
+// Whether panes close most of a hole. Tests five points: the middle, and one near each corner.
 bool hasPane(const PreparedScene& prepared, const Rectangle& hole) {
   const double reach = .5 * std::min(hole.width, hole.height);
   int panes = 0;
@@ -31,13 +31,13 @@ bool hasPane(const PreparedScene& prepared, const Rectangle& hole) {
   return panes > 2;
 }
 
-// What is seen from a pane or a hole: means over a hemisphere, in brightness (W/sr/m2).
+// Light that a pane or a hole receives from one side: mean brightness over the hemisphere (W/sr/m2).
 struct Seen {
   double all = 0;
-  double sky = 0;  // neither reflected nor attenuated by panes
+  double sky = 0;  // from the sky, neither reflected nor attenuated by panes
 };
 
-// Whether the side that is seen first is the bright side of an opening.
+// Whether `one` is the bright side of an opening.
 bool showsMoreSky(const Seen& one, const Seen& other) {
   return one.sky > std::max(Tuning::kMoreSky * other.sky, Tuning::kLeastSky * one.all);
 }
@@ -45,14 +45,14 @@ bool isBrighter(const Seen& one, const Seen& other) {
   return showsMoreSky(one, other) || (!showsMoreSky(other, one) && one.all > Tuning::kBrighter * other.all);
 }
 
-// Looks around from points of panes and holes.
+// Samples the light and the distances on both sides of panes and holes.
 class Probe {
  public:
-  // lift: distance of the points from the rectangle (world units), larger than rounding errors.
+  // lift: distance of the ray origins from the rectangle (world units), larger than rounding errors.
   Probe(const PreparedScene& prepared, double lift)
       : t_(prepared), tracer_(prepared, noCaches_, Aims{}), lift_(lift) {}
 
-  // What is seen through the rectangle, over the hemisphere around one of its two normals.
+  // The light that comes through the rectangle from the hemisphere around `normal`, one of its two normals.
   Seen through(const Rectangle& r, const V3d& normal) {
     Seen seen;
     look(r, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
@@ -62,8 +62,8 @@ class Probe {
     return seen;
   }
 
-  // The mean brightness (W/sr/m2) of what is on the normal's side, and its distance (world units; root mean
-  // square, 0 if nothing is hit).
+  // The room on the side of `normal`: mean brightness (W/sr/m2), and root mean square distance of its
+  // surfaces (world units; 0 if nothing is hit).
   struct Room {
     double brightness = 0, distance = 0;
   };
@@ -117,7 +117,7 @@ std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
   return panes;
 }
 
-// Holes in walls without panes. Without distant sources there is no sky to see through them.
+// Holes in walls that no pane closes. None without distant sources, because there is no sky to see.
 std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   std::vector<Opening> doors;
   if (prepared.lights().distant().empty()) return doors;
@@ -132,7 +132,7 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   return doors;
 }
 
-// Whether a hole is none of the openings found so far. The two faces of a thick wall have a hole each for the
+// Whether a hole differs from all openings found so far. A thick wall has two faces, each with a hole for the
 // same opening.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
@@ -142,14 +142,14 @@ bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   });
 }
 
-// Merges panes that lie side by side with small gaps only.
+// Merges neighbouring panes that are separated only by small gaps.
 void merge(std::vector<Opening>& panes) {
   for (size_t i = 0; i < panes.size(); ++i)
     for (size_t j = i + 1; j < panes.size();) {
       Opening& a = panes[i];
       const Opening& b = panes[j];
       const V3d between = b.corner - a.corner;
-      // Panes are coplanar within 1e-4 of their size and an angle of .08 degrees.
+      // Panes within these tolerances are coplanar: 1e-4 of their size, and an angle of .08 degrees.
       const double scale = 1e-4 * (a.width + a.height);
       double low[2] = {0, 0}, high[2] = {a.width, a.height};
       bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
@@ -176,8 +176,8 @@ void merge(std::vector<Opening>& panes) {
     }
 }
 
-// Panes and holes that may be openings, the largest first. face: the largest side of the scene's box (square
-// world units).
+// Panes and holes that may be openings, the largest first. face: area of the largest face of the scene's box
+// (square world units).
 std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
   std::vector<Opening> asked = panesOf(prepared, Tuning::kLeastArea * face);
   const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastArea * face);

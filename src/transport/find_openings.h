@@ -4,8 +4,8 @@
 
 namespace rsphere {
 
-// Finds panes and holes in walls (holes.h), and traces some paths from both sides of each to see whether
-// daylight enters through it. Empty if there are none.
+// Finds panes and holes in walls (holes.h), and traces some paths on both sides of each to determine whether
+// daylight enters through it. Empty if there are no openings.
 Openings findOpenings(const PreparedScene& prepared);
 
 }  // namespace rsphere

@@ -5,8 +5,8 @@
 
 namespace rsphere {
 
-// A reference to a callable, to be used only during the call that it is passed to. Nothing is copied or
-// allocated to make one.
+// A reference to a callable, valid only during the call that it is passed to. Making one copies and allocates
+// nothing.
 template <class Signature>
 class FunctionRef;
 

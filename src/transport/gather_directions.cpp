@@ -14,13 +14,12 @@ namespace {
 
 using Tuning = tuning::GatherDirections;
 
-// Caps on the fractions of directions that are aimed. Other directions then have at most twice the weight
-// that they have without aiming (with highlights, another third more), which bounds the growth of their
-// variance.
+// Caps on the fractions of aimed directions. They limit the weight of the other directions to twice their
+// weight without aiming (with highlights, a third more than that), and thus the growth of their variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 
-// The mean radiance (W/sr/m2) from directions that are not aimed. Both estimates with openings are made near
-// to them, where rooms are brighter than elsewhere.
+// The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, the two estimates
+// are made near them, where a room is brighter than elsewhere, and the smaller one is used.
 double usualRadiance(const Aims& aims) {
   if (!aims.openings) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
   const double least =
@@ -44,19 +43,18 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_.aim);
-    // all may be 0: an estimate of a room that light hardly enters.
-    if (highlights_.aim.mean > 0)
-      highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
+    // all can be 0 if that was the estimate for a room that little light enters.
+    if (highlights_.aim.mean > 0) highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
   }
   if (!(aimedAt > 0)) return;
-  // Unaimed directions hit openings too, in proportion to the form factor. No direction is aimed where they
-  // alone send the largest fraction there.
+  // Unaimed directions hit openings too, in proportion to the form factor. If they alone reach the cap on the
+  // fraction of directions towards openings, none is aimed.
   const double unseen = std::max(0., 1 - openings_.aim.seen / kMostToOpenings);
   openings_.share = std::min(kMostToOpenings, Tuning::kAimed * openings_.aim.mean / all * unseen);
   spots_.share = Tuning::kAimed * spots_.aim.mean / all;
 }
 
-// The density of a direction, relative to that of sampling by projected solid angle.
+// The density of the mixture in a direction, relative to sampling by projected solid angle.
 double GatherDirections::density(const V3d& direction) const {
   const double aimed =
       openings_.density(direction) + spots_.density(direction) + highlights_.density(direction);
@@ -67,8 +65,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
   constexpr double kGolden = .6180339887498949;
   const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
   for (int i = 0; i < count; ++i) {
-    // Systematic sampling: consecutive directions are of one kind, whose number differs from its share by
-    // less than 1. Within its kind, u is evenly spaced from 0 to 1.
+    // Systematic sampling: directions of the same kind are consecutive, and the number of each kind differs
+    // from its expected value by less than 1. Within each kind, u is evenly spaced between 0 and 1.
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;
@@ -79,8 +77,8 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
     } else if ((u -= spots_.share) < highlights_.share) {
       direction = highlights_.sample(u, even.x, even.y);
     } else {
-      // A Fibonacci lattice over the projected hemisphere, shifted at random. It is as evenly distributed as
-      // a jittered grid, for any number of rays.
+      // A randomly shifted Fibonacci lattice over the projected hemisphere. It is as evenly distributed as a
+      // jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
       direction = diffuseDirection(normal_, std::min(1., (u - highlights_.share) / unaimed()),
                                    around - std::floor(around));

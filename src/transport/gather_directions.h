@@ -1,8 +1,7 @@
 #pragma once
-// The directions of a gather: most of them distributed by projected solid angle, the others aimed at openings
-// that daylight enters through, at bright spots and at highlights on rough balls and cylinders. Each is
-// weighted by the density with which all of these together choose its direction (multiple importance sampling
-// with the balance heuristic).
+// The directions of a gather. Most are distributed by projected solid angle; the others are aimed at daylight
+// openings, at bright spots, and at highlights on rough balls and cylinders. Each is weighted by the density
+// of the whole mixture in its direction (multiple importance sampling with the balance heuristic).
 #include <array>
 
 #include "scene/random.h"
@@ -17,17 +16,17 @@ namespace rsphere {
 
 class GatherDirections {
  public:
-  // The directions over the hemisphere around a normal (unit) at a point (world). Those behind the surface's
-  // trueNormal (unit) are left out, as if it were dark there. rays: about how many directions will be drawn.
-  // Keeps references to what the aims refer to.
+  // Directions over the hemisphere around a normal (unit) at a point (world). Those that point behind the
+  // surface (trueNormal: its unit normal) are left out, as if it were dark there. rays: the approximate
+  // number of directions that will be drawn. Keeps references to the places of `aims`.
   GatherDirections(const Aims& aims, const V3d& point, const V3d& normal, const V3d& trueNormal, int rays);
 
-  // Called for each direction (unit), with its share of the mean over the hemisphere.
+  // Called for each direction (unit). part: its weight in the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
-  // Draws `count` directions, whose parts sum to 1 on average over a hemisphere that lies in front of the
-  // surface. Directions behind the surface are left out, and so are those that miss the highlight at which
-  // they were aimed.
+  // Draws `count` directions. Their parts sum to 1 on average if the hemisphere lies in front of the surface.
+  // Leaves out directions behind the surface, and directions that miss the highlight at which they were
+  // aimed.
   void draw(int count, Random& random, Each each) const;
 
  private:
@@ -40,13 +39,14 @@ class GatherDirections {
   ShareOfMixture<Highlights> highlights_;
 };
 
-// Called for each ray, ready to be followed. Its coefficient is the factor of its radiance in the result.
+// Called for each ray before it is followed. The ray's coefficient is the factor on its radiance in the
+// result.
 using GatherRay = FunctionRef<void(const NextRay& next)>;
 
-// Makes a ray of each direction, from a point at the end of the root. coefficient: the factor of the mean
-// radiance over the hemisphere in the result. weight: the weight of one ray, relative to the root's, for
-// comparison with the weight limit (-lw). An aimed direction has no smaller weight than others, although its
-// factor is smaller.
+// Makes a ray for each direction, starting from a point at the end of the root ray. coefficient: factor on
+// the mean radiance over the hemisphere in the result. weight: weight of one ray relative to the root, which
+// is compared with the weight limit (-lw). It is the same for aimed and other directions, although the
+// coefficients of aimed ones are smaller.
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
                         const RayEnd& root, const V3d& point, RayKind kind, int rays,
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each);

@@ -11,35 +11,35 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kMostKnown = 8;  // blockers that a region remembers
-// A region is divided if polygons hide at least kWorthHiding of its boxes, and at least kLeastHidden boxes,
-// from places in it; but not after kMostInVain divisions in a row of which none has hidden a quarter of them.
-// To find the region on one side of a slab takes five divisions: one along the slab, and one for each of its
-// four edges.
+constexpr size_t kMostKnown = 8;  // number of recent blockers that a region keeps
+// A region is divided if polygons hide at least the fraction kWorthHiding of its boxes, and at least
+// kLeastHidden boxes, from places in it. Division stops after kMostInVain successive divisions none of which
+// has hidden a quarter of the boxes. That number must be above five, because it takes five divisions to
+// isolate the region on one side of a slab: one along the slab, and one along each of its four edges.
 constexpr double kWorthHiding = .4;
 constexpr size_t kLeastHidden = 2;  // boxes
 constexpr int kMostInVain = 6;
-// Number of boxes of a region that are examined to decide whether it is divided.
+// Number of boxes that are examined to decide whether a region is divided.
 constexpr size_t kProbes = 32;
-// Number of surfaces on the way to a box that are examined, because furniture or glass may stand before a
+// Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
 // wall.
 constexpr int kSurfacesInTheWay = 6;
-// A region is not divided because of polygons whose size, times this, exceeds the width of the region: the
+// Polygons larger than the width of a region divided by this are ignored when it is divided, because the
 // division would gain little.
 constexpr double kWorthDividing = .25;
-// Cap on the tests by which the boxes hidden from a region are found. If there are many boxes, groups of them
-// are tested.
+// Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
+// boxes are tested first.
 constexpr size_t kMostTests = 4096;
-// Polygons of more vertices are rarely convex.
+// Polygons with more vertices are rarely convex, and are ignored.
 constexpr uint32_t kMostVertices = 8;
 
-// Distance from a surface, in units of HiddenBoxes::margin_, of the place whose region is used for a point of
-// the surface (see beside()).
+// Points of a surface use the region of a place at this distance in front of the surface, in units of
+// HiddenBoxes::margin_ (see beside()).
 constexpr double kBeside = 2.25;
 
-// The least distance of boxes from the plane of a polygon between them (world units). It is needed because
-// surfaces nearer than kSamePlace to an end of a ray do not block it, and rays whose cosine to a plane is at
-// most kSamePlace miss the plane.
+// The smallest distance of boxes from the plane of a polygon that hides one from the other (world units). It
+// is needed because surfaces nearer than kSamePlace to an end of a ray do not block it, and because rays
+// whose cosine to a plane is at most kSamePlace miss the plane.
 double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
 
 std::array<V3d, 8> cornersOf(const Box3d& box) {
@@ -62,7 +62,7 @@ V3d middleOfOctant(const Box3d& box, size_t octant) {
   return {at(0, 1), at(1, 2), at(2, 4)};
 }
 
-// The share of a box that another box overlaps, both projected along an axis.
+// The fraction of a box that another box covers if both are projected along an axis.
 double shareAcross(const Box3d& box, const Box3d& other, int axis) {
   double share = 1;
   for (int i = 0; i < 3; ++i) {
@@ -77,15 +77,15 @@ double shareAcross(const Box3d& box, const Box3d& other, int axis) {
 
 struct HiddenBoxes::Blocker {
   SurfaceId surface;
-  V3d normal{0, 0, 0};  // unit, towards the side that it was hit from
+  V3d normal{0, 0, 0};  // unit, towards the side from which a ray hit it
   double offset = 0;
   double size = 0;  // half the sum of its extents along two axes
   Box3d box{};
   uint32_t edges = 0;
   std::array<V3d, kMostVertices> inward{};
-  std::array<double, kMostVertices> least{};  // inward . p for the points p of the edge
+  std::array<double, kMostVertices> least{};  // of each edge: inward . p for its points p
 
-  // The axis that the plane is perpendicular to; -1 if none.
+  // The axis that is perpendicular to the polygon's plane; -1 if none.
   int axis() const {
     for (int i = 0; i < 3; ++i)
       if (box.max[i] - box.min[i] <= kSamePlace) return i;
@@ -94,15 +94,16 @@ struct HiddenBoxes::Blocker {
 };
 
 struct HiddenBoxes::Region {
-  using List = std::shared_ptr<const std::vector<uint32_t>>;  // shared with the parent if no more are hidden
+  // Shared with the parent region if it hides no more boxes.
+  using List = std::shared_ptr<const std::vector<uint32_t>>;
 
   Box3d box{};
-  List visible;  // positions of boxes that are not certainly hidden, in ascending order
-  List places;   // those of them that may be hidden, as places in Tree::order
+  List visible;  // indices of the boxes that are not certainly hidden, in ascending order
+  List places;   // the boxes among these that may be hidden, as places in Tree::order
   std::vector<Blocker> blockers;
-  int inVain = 0;     // number of divisions since a quarter of the boxes was hidden
-  size_t before = 0;  // number of places at that time
-  int axis = -1;      // along which it is divided; -1: not divided
+  int inVain = 0;     // number of divisions since the last one that hid a quarter of the boxes
+  size_t before = 0;  // number of places after that division
+  int axis = -1;      // the region is divided perpendicular to this axis; -1: not divided
   double at = 0;
   mutable std::array<std::unique_ptr<const Region>, 2> halves;
   mutable std::array<std::atomic<const Region*>, 2> ready{};
@@ -122,7 +123,7 @@ HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<B
   tree_.makeNode(0, tree_.order.size());
   margin_ = 2 * marginOver(tracer.bounds().size().length());
   root_ = std::make_unique<Region>();
-  // Rounding may place points of the outermost walls outside of the bounds.
+  // Enlarged, because rounding may place points of the outermost walls outside of the bounds.
   root_->box = {tracer.bounds().min - V3d(margin_), tracer.bounds().max + V3d(margin_)};
   root_->visible = std::make_shared<const std::vector<uint32_t>>(all_);
   std::vector<uint32_t> places(tree_.order.size());
@@ -132,7 +133,7 @@ HiddenBoxes::HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<B
   divide(*root_);
 }
 
-// Makes the tree of the places from begin to end. Returns its index.
+// Makes the subtree for the places from begin to end. Returns its index.
 size_t HiddenBoxes::Tree::makeNode(size_t begin, size_t end) {
   const size_t index = nodes.size();
   Box3d box;
@@ -153,7 +154,8 @@ size_t HiddenBoxes::Tree::makeNode(size_t begin, size_t end) {
 }
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
-// An opaque convex polygon of the world as a blocker, for rays that come from a point; false if it is none.
+// Makes an opaque convex polygon of the scene itself a blocker for rays from a point. False if the surface is
+// not such a polygon.
 bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;
   const Surface surface = scene_.surfaces[id];
@@ -167,7 +169,7 @@ bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) c
   blocker.size = polygon->extent / 2;
   blocker.box = bounds(*polygon, scene_.vertices);
   const auto corners = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
-  // Convex, and once around: every vertex on the inner side of every edge, and one full turn in all.
+  // A polygon is convex if all vertices lie on the inner side of all edges and the edges make one full turn.
   double turn = 0;
   for (size_t i = 0; i < corners.size(); ++i) {
     const V3d& a = corners[i];
@@ -186,8 +188,8 @@ bool HiddenBoxes::findBlocker(SurfaceId id, const V3d& from, Blocker& blocker) c
   return turn < 3 * kPi;
 }
 
-// Whether every segment from one box to the other cuts the polygon from its front, the side from which
-// findBlocker() met it, before it meets anything that refracts light.
+// Whether every segment from one box to the other hits the front of the polygon (the side from which
+// findBlocker() saw it) before it reaches anything that refracts light.
 bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const {
   Box3d both = from;
   both.extendBy(to);
@@ -217,7 +219,7 @@ bool HiddenBoxes::covers(const Blocker& blocker, const Box3d& from, const Box3d&
 }
 
 // Calls use() with each polygon between two points that may be a blocker, until use() returns true. Returns
-// whether it did.
+// whether it has returned true.
 bool HiddenBoxes::anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
   V3d way = to - from, origin = from;
   double left = way.length() - kSamePlace;
@@ -241,7 +243,7 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to) const {
   return hides(from, to, known);
 }
 
-// known: blockers that were found for nearby boxes; the first one is the last that hid something.
+// known: blockers that were found for nearby boxes. The first of them was the last one that hid a box.
 bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const {
   for (size_t i = 0; i < known.size(); ++i)
     if (covers(known[i], from, to)) {
@@ -257,7 +259,7 @@ bool HiddenBoxes::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>
   });
 }
 
-// The places, of those given in ascending order, that are not hidden from a region.
+// Returns the given places that are not hidden from a region. Both lists are in ascending order.
 std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<const uint32_t> places,
                                                std::vector<Blocker>& known) const {
   struct Some {
@@ -265,7 +267,7 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
     std::span<const uint32_t> places;
   };
   std::vector<uint32_t> visible;
-  // Large groups are tested first. Groups that are left after kMostTests tests count as visible.
+  // Large groups are tested first. Groups that remain after kMostTests tests are treated as visible.
   std::vector<Some> all{{0, places}};
   for (size_t i = 0; i < all.size(); ++i) {
     const auto [index, some] = all[i];
@@ -284,8 +286,8 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
   return visible;
 }
 
-// The polygons that hide boxes from places in a region, and how many of them; those that hide most first.
-// Empty if dividing the region would not pay.
+// The polygons that hide boxes from places in a region, each with the number of boxes that it hides, in
+// descending order of that number. Empty if dividing the region would not pay.
 std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<Blocker, size_t>> found;
   const double widest = region.box.size()[longestAxis(region.box)];
@@ -313,9 +315,10 @@ std::vector<std::pair<HiddenBoxes::Blocker, size_t>> HiddenBoxes::blockersIn(con
   return found;
 }
 
-// Decides whether and where a region is divided. If a polygon reaches across most of the region, it is
-// divided along a plane beside the polygon, so that points of the polygon lie in a thin region of their own;
-// or, if the polygon lies outside, along planes within its edges. Otherwise it is divided in its middle.
+// Decides whether and where a region is divided. If a polygon extends across most of the region, the region
+// is divided along a plane next to the polygon, so that points of the polygon get a thin region. If the
+// polygon lies outside the region, it is divided along planes just inside the polygon's edges. Without such a
+// polygon, it is divided in the middle.
 void HiddenBoxes::divide(Region& region) const {
   if (region.places->size() <= kLeastHidden) return;
   const auto found = blockersIn(region);
@@ -371,11 +374,12 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   return *region.halves[which];
 }
 
-// For a point of a surface that is perpendicular to an axis, a place in the region in front of the surface;
-// otherwise the point itself. Whatever is hidden from that place, and lies in front of the surface, is hidden
-// from the point too: covers() requires that polygons hide it from all places within kBeside of the region,
-// unless they are perpendicular to an axis. What such a polygon hides from the place is either hidden from
-// the point by it too, or lies behind the surface.
+// For a point of a surface that is perpendicular to an axis: a place in the region in front of the surface.
+// For other points: the point itself. Every box in front of the surface that is hidden from that place is
+// hidden from the point too:
+// - Blockers that are not perpendicular to an axis hide it from all places within kBeside of the region,
+//   because covers() requires that.
+// - Other blockers hide it from the point too, unless it lies behind the surface.
 V3d HiddenBoxes::beside(const V3d& point, const V3d& front) const {
   const double along = std::max({std::abs(front.x), std::abs(front.y), std::abs(front.z)});
   return along > 1 - 1e-12 ? point + kBeside * margin_ * front : point;

@@ -1,16 +1,15 @@
 #pragma once
-// Finds boxes that are certainly hidden from a place, such as the luminaires of all other storeys of a
+// Finds boxes that are certainly hidden from a place, such as the luminaires on all other storeys of a
 // building.
 //
-// A box is hidden from another if a single opaque convex polygon (a slab, a wall) cuts every segment between
-// the two. It suffices to look at the segments between their corners: the points where these meet the
-// polygon's plane have a convex hull that contains the points where all segments meet it ("shaft culling",
-// Haines and Wallace 1991). A light source in such a box need not be sampled: every shadow ray would be
-// blocked.
+// A box is hidden from another if a single opaque convex polygon (a slab, a wall) intersects every segment
+// between them. It is enough to test the segments between their corners: the convex hull of the points where
+// these intersect the polygon's plane contains the intersections of all segments ("shaft culling", Haines and
+// Wallace 1991). A light source in a hidden box need not be sampled, since every shadow ray would be blocked.
 //
 // The scene is divided into regions along the planes of such polygons (cells: Teller and Sequin 1991). A
-// region is divided when a point in it is first looked up, and only if that saves time. The result depends on
-// the scene and the boxes alone.
+// region is divided when a point in it is first looked up, and only if that saves time. The result depends
+// only on the scene and the boxes.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -26,38 +25,38 @@ namespace rsphere {
 
 class HiddenBoxes {
  public:
-  // Keeps references to the scene and the tracer. An empty box is never hidden. boxes: fewer than 2^32. few:
-  // with at most this number of boxes, all count as visible, because finding the hidden ones would take more
-  // time than it saves.
+  // Keeps references to the scene and the tracer. boxes: fewer than 2^32; empty boxes are never hidden. few:
+  // up to this number of boxes, all are treated as visible, because finding hidden ones would take more time
+  // than it saves.
   HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few);
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
 
-  // In ascending order, the positions of the boxes that are not certainly hidden from the point. Any threads
-  // may call it.
+  // The indices of the boxes that are not certainly hidden from the point, in ascending order. May be called
+  // from any thread.
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
-  // The same for a point of a surface that faces `front` (unit), as far as boxes in front of the surface are
-  // concerned: a box that lies entirely behind it may be left out or not. On slabs and walls, more boxes are
-  // then found to be hidden.
+  // The same for a point of a surface that faces `front` (unit), for callers that ignore boxes behind the
+  // surface: such boxes may be in the result or not. For points on slabs and walls, this finds more hidden
+  // boxes.
   std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const {
     return root_ ? find(beside(point, front)) : all_;
   }
 
-  // The same for the largest region around the point in which it satisfies `enough`; if none does, for the
-  // smallest.
+  // The same for the largest region around the point for which enough(result) is true; if it is never true,
+  // for the smallest region.
   std::span<const uint32_t> widestWhere(const V3d& point,
                                         FunctionRef<bool(std::span<const uint32_t>)> enough) const;
 
-  // Whether there are regions that some boxes may be hidden from.
+  // Whether the scene may be divided into regions, so that some boxes may be hidden.
   bool divides() const;
 
   // Whether a polygon hides everything in box `to` from everything in box `from`.
   bool hides(const Box3d& from, const Box3d& to) const;
 
  private:
-  // An opaque polygon, and its edges' normals in its plane, which point inward.
+  // An opaque polygon, with the inward normals of its edges in its plane.
   struct Blocker;
   struct Region;
 
@@ -73,15 +72,15 @@ class HiddenBoxes {
   std::vector<uint32_t> visibleFrom(const Box3d& region, std::span<const uint32_t> places,
                                     std::vector<Blocker>& known) const;
 
-  // A binary tree of the boxes that may be hidden: a node has the places from begin to end of `order`.
+  // A binary tree of the boxes that may be hidden. A node contains the boxes order[begin] to order[end - 1].
   struct Tree {
     struct Node {
       Box3d box;
       size_t begin, end;
-      size_t second;  // the second child; the first one follows the node. 0: a leaf
+      size_t second;  // index of the second child; the first child follows the node. 0: a leaf
     };
-    std::vector<Box3d> boxes;     // by position, with the empty ones
-    std::vector<uint32_t> order;  // positions, so that near ones lie side by side
+    std::vector<Box3d> boxes;     // all boxes, including empty ones
+    std::vector<uint32_t> order;  // indices of the boxes in spatial order
     std::vector<Node> nodes;
 
     const Box3d& boxOf(size_t place) const { return boxes[order[place]]; }
@@ -90,11 +89,11 @@ class HiddenBoxes {
 
   const Scene& scene_;
   const Tracer& tracer_;
-  double margin_ = 0;  // between regions and the planes that divide them (world units)
+  double margin_ = 0;  // distance of regions from the planes that divide them (world units)
   Tree tree_;
-  std::vector<uint32_t> all_;     // the positions of all boxes
-  std::vector<uint32_t> never_;   // those of empty boxes
-  std::unique_ptr<Region> root_;  // null: too few boxes
+  std::vector<uint32_t> all_;     // indices of all boxes
+  std::vector<uint32_t> never_;   // indices of the empty boxes
+  std::unique_ptr<Region> root_;  // null if there are too few boxes
   std::unique_ptr<std::mutex> dividing_ = std::make_unique<std::mutex>();
 };
 

@@ -20,8 +20,8 @@ struct Reflector {
   const Opaque* material;
 };
 
-// The largest shapes of one kind that show highlights and belong to the scene itself, not to octrees in it.
-// size: returns the size of a shape, or at most 0 to leave it out. The result refers to the scene.
+// The largest shapes of one kind that show highlights. Contents of instances are excluded. size: returns the
+// size of a shape; zero or less excludes the shape. The result refers to the scene.
 template <class Shape, class Size>
 std::vector<Reflector<Shape>> largestReflectors(const Scene& scene, size_t most, Size size) {
   std::vector<Reflector<Shape>> found;

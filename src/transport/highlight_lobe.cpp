@@ -14,9 +14,9 @@ struct Symmetric {
 
   double determinant() const { return xx * yy - xy * xy; }
   Symmetric inverse() const { return {yy / determinant(), -xy / determinant(), xx / determinant()}; }
-  // this * m * this
+  // Returns this * m * this.
   Symmetric around(const Symmetric& m) const {
-    const double ax = xx * m.xx + xy * m.xy, ay = xx * m.xy + xy * m.yy;  // the first row of this * m
+    const double ax = xx * m.xx + xy * m.xy, ay = xx * m.xy + xy * m.yy;  // first row of this * m
     const double bx = xy * m.xx + yy * m.xy, by = xy * m.xy + yy * m.yy;
     return {ax * xx + ay * xy, ax * xy + ay * yy, bx * xy + by * yy};
   }
@@ -31,7 +31,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   const double toSource = way.length();
   const V3d out = way / toSource;
   const double cosine = std::max(normal.dot(in), tuning::Highlights::kEdgeOn);
-  // The tangents across the plane of reflection and in it.
+  // The tangents perpendicular to the plane of reflection and in it.
   V3d across = normal.cross(in);
   if (across.length2() > 1e-12) {
     across.normalize();
@@ -40,8 +40,8 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
     frame(normal, across, other);
   }
   const V3d along = across.cross(normal);
-  // Twice the covariance of the difference between the normal and the bisector, over all points of the
-  // source.
+  // Twice the covariance of the difference between the normal and the bisector, over the roughness and over
+  // all points of the source.
   Symmetric apart{roughness * roughness, 0, roughness * roughness};
   for (const V3d& half : {part.u, part.v}) {
     const V3d angle = (half - half.dot(out) * out) / (part.distant ? 1 : toSource);
@@ -50,7 +50,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
     apart.xy += 2 * part.variance * x * y;
     apart.yy += 2 * part.variance * y * y;
   }
-  // How fast the bisector departs from the normal along the surface (per length).
+  // The rate at which the difference of bisector and normal changes along the surface (per length).
   const double bends = 1 / length + (part.distant ? 0 : 1 / toSource), curved = 1 / bend.radius;
   const double x = bend.straight.dot(across), y = bend.straight.dot(along);
   const Symmetric rate{curved * (1 - x * x) + bends / (2 * cosine), -curved * x * y,
@@ -59,7 +59,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   lengthwise = (x * x * place.xx + 2 * x * y * place.xy + y * y * place.yy) / 2;
   magnified = 1 / (4 * length * length * rate.determinant());
   spread = std::sqrt(apart.determinant()) * cosine / (2 * length * length * rate.determinant());
-  // The same directions as seen from the point.
+  // The distribution of these places as directions from the point.
   const double a = tuning::Highlights::kWider / length, b = a * cosine;
   lobe = HighlightLobe(-in, across, (along - along.dot(in) * in).normalized(), a * a * place.xx,
                        a * b * place.xy, b * b * place.yy);

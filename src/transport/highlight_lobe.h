@@ -7,7 +7,7 @@
 
 namespace rsphere {
 
-// A normal distribution of directions in two dimensions, projected from a plane.
+// A normal distribution in a plane perpendicular to the axis, at distance 1, as a distribution of directions.
 class HighlightLobe {
  public:
   HighlightLobe() = default;
@@ -27,7 +27,7 @@ class HighlightLobe {
     const double x = radius * std::cos(angle), y = radius * std::sin(angle);
     return (axis_ + xx_ * x * x_ + (yx_ * x + yy_ * y) * y_).normalized();
   }
-  // Per sr. 0 where it is less than exp(-most) of its peak.
+  // The density per sr. Densities below exp(-most) times the peak are returned as 0.
   double density(const V3d& direction, double most = std::numeric_limits<double>::infinity()) const {
     const double cosine = direction.dot(axis_);
     if (!(cosine > 0)) return 0;
@@ -38,52 +38,51 @@ class HighlightLobe {
   }
 
  private:
-  V3d axis_, x_, y_;     // unit
-  double xx_, yx_, yy_;  // Cholesky factor
+  V3d axis_, x_, y_;     // unit vectors
+  double xx_, yx_, yy_;  // Cholesky factor of the covariance
 };
 
-// How a surface bends where it mirrors.
+// The curvature of a surface at the place of the reflection.
 struct Bend {
   double radius;  // of curvature (world units)
-  // The direction (unit) in which it does not bend, such as a cylinder's axis; 0: none.
+  // The direction (unit) in which the surface is straight, such as a cylinder's axis; 0: none.
   V3d straight{0, 0, 0};
 };
 
-// The highlight of a part of a source on a rough curved surface, as seen from a point. The model: roughness
-// is a property of the vector between the surface's normal and the bisector of the directions to the point
-// and to the source. This vector and the two directions are approximated by linear functions of the place on
-// the surface.
+// The highlight of a part of a source on a rough curved surface, as seen from a point. In the model, the
+// roughness determines the distribution of the vector between the surface's normal and the bisector of the
+// directions to the point and to the source. This vector and the two directions are approximated by linear
+// functions of the place on the surface.
 //
-// Source of the model that defines the roughness: Ward, "Measuring and modeling anisotropic reflection"
-// (SIGGRAPH 1992).
+// Source: Ward, "Measuring and modeling anisotropic reflection" (SIGGRAPH 1992), which defines the roughness.
 struct Highlight {
-  // No direction is aimed where the density of a highlight is below exp(-kReach^2) of its peak, 1e-4. In
-  // Ward's model that is where the angle between the normal and the bisector of the directions to point and
-  // source exceeds this multiple of the roughness, apart from the source's extent.
+  // No direction is aimed where the density of a highlight is below exp(-kReach^2) = 1e-4 of its peak. For a
+  // small source, this happens in Ward's model if the angle between the normal and the bisector of the
+  // directions to point and source exceeds this multiple of the roughness.
   static constexpr double kReach = 3;
-  // No rays are aimed at a ball or cylinder whose center or axis is nearer than this, in radii: on its
-  // surface, the formulas divide by 0.
+  // No rays are aimed at a ball or cylinder if the distance to its center or axis is below this number of
+  // radii, because the formulas divide by 0 on its surface.
   static constexpr double kApart = 1.02;
 
-  HighlightLobe lobe;  // tuning::Highlights::kWider times as wide as the highlight
-  // The solid angle of the part's image if the surface were smooth, over that of the part seen from `at`.
+  HighlightLobe lobe;  // wider than the highlight by the factor tuning::Highlights::kWider
+  // The solid angle of the part's image on a smooth surface, divided by that of the part as seen from `at`.
   double magnified;
-  // The variance of the place on the surface along the direction in which it does not bend (square world
-  // units).
+  // The variance of the highlight along the direction in which the surface is straight (square world units).
   double lengthwise;
-  // The root of the determinant of the covariance of directions (sr).
+  // The square root of the determinant of the covariance of the directions (sr).
   double spread;
 
-  // at: the place on the surface that mirrors the middle of the part to the point (world). normal: the
-  // surface's normal there (unit).
+  // at: the place on the surface that mirrors the middle of the part towards the point (world). normal: the
+  // normal of the surface there (unit).
   Highlight(const V3d& at, const V3d& normal, const Bend& bend, double roughness, const SourcePart& part,
             const V3d& point);
 };
 
-// The material of a surface if it shows highlights: plastic or metal that is not smooth; otherwise null.
+// The material of a surface that shows highlights: plastic or metal with a roughness above 0. Null for
+// others.
 const Opaque* roughReflector(const Scene& scene, const Surface& surface);
 
-// The share of the brightness of light that such a material reflects in highlights.
+// The fraction of the light, by brightness, that such a material reflects in highlights.
 double reflectanceOf(const Opaque& material);
 
 }  // namespace rsphere

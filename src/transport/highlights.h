@@ -1,6 +1,6 @@
 #pragma once
-// Highlights of light sources on rough balls and cylinders (ball_highlights.h, cylinder_highlights.h), which
-// indirect rays are aimed at.
+// Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed
+// (ball_highlights.h, cylinder_highlights.h).
 #include <algorithm>
 
 #include "transport/ball_highlights.h"
@@ -17,19 +17,19 @@ class Highlights {
         cylinders_(scene, tracer, lights, least(usual_)) {}
 
   bool empty() const { return balls_.empty() && cylinders_.empty(); }
-  // An estimate of the mean brightness (W/sr/m2) of all surfaces, as lit by the sources.
+  // An estimate of the mean brightness (W/sr/m2) of all surfaces under the light of the sources.
   double usual() const { return usual_; }
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim {
-    double mean = 0;  // radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
+    double mean = 0;  // mean radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
     BallHighlights::Aim balls;
     CylinderHighlights::Aim cylinders;
   };
 
   // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2); highlights that add little
-  // variance compared with it are left out. rays: of the gather; if they are few, only the brightest balls
-  // are aimed at, because finding highlights takes as long as tracing some rays.
+  // variance relative to it are ignored. rays: number of rays of the gather. If there are few, only the
+  // brightest balls are used, because finding highlights takes as long as tracing some rays.
   void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
     const bool few = rays < tuning::Highlights::kMany;
     balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
@@ -37,16 +37,16 @@ class Highlights {
     aim.mean = aim.balls.mean + aim.cylinders.mean;
   }
 
-  // One of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1); 0 if the drawn direction misses the
-  // highlight. REQUIRES aim.mean > 0.
+  // A direction towards a highlight (unit); u1, u2, u3: uniform in [0, 1). 0 if the sampled direction misses
+  // the highlight. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const {
     const double toBalls = aim.balls.mean / aim.mean;
     if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);
     return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
   }
 
-  // The density of aimed directions, per sr. Its integral is less than 1, because some samples miss the
-  // highlight.
+  // The density of the directions from sample(), per sr. It integrates to less than 1, because some of them
+  // miss the highlight.
   double density(const Aim& aim, const V3d& direction) const {
     double sum = 0;
     if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);

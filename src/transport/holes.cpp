@@ -13,13 +13,13 @@ namespace {
 
 using Tuning = tuning::Holes;
 
-// The polygons in one plane, whichever way they face, the largest first.
+// The polygons in one plane, regardless of the side they face, the largest first.
 struct Wall {
   std::vector<const Polygon*> polygons;
   double area = 0;
 };
 
-// The same for all polygons of one plane.
+// A key that is equal for all polygons in one plane.
 using PlaneKey = std::array<int64_t, 4>;
 
 PlaneKey planeOf(const Polygon& polygon, const V3d& fromOrigin, double size) {
@@ -59,7 +59,7 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
   return walls;
 }
 
-// Which cells of a grid over a wall have their middle on one of its polygons.
+// Determines which cells of a grid over a wall have their middle on one of its polygons.
 class Coverage {
  public:
   static constexpr int kCells = Tuning::kCells;
@@ -85,8 +85,8 @@ class Coverage {
     for (std::vector<double>& shares : corners_) std::ranges::sort(shares);
   }
 
-  // The rectangles around connected cells that are not covered, if they fill most of it and the wall
-  // surrounds them. Can be called once.
+  // Finds connected regions of uncovered cells. Returns the bounding rectangle of each that fills most of the
+  // rectangle and is surrounded by the wall. Can be called only once.
   std::vector<Rectangle> holes() {
     std::vector<Rectangle> found;
     for (int j = 0; j < kCells; ++j)
@@ -111,15 +111,16 @@ class Coverage {
  private:
   struct Extent {
     int low[2] = {kCells, kCells}, high[2] = {-1, -1}, cells = 0;
-    double outline = 0, free = 0;  // length of the outline, and of its part where the wall ends (world units)
+    // Lengths of the outline, and of the part of it at the edge of the wall (world units).
+    double outline = 0, free = 0;
   };
   enum class Cell : uint8_t { open, wall, counted };
 
   Cell& at(int i, int j) { return cells_[static_cast<size_t>(j * kCells + i)]; }
   V3d middle(int i, int j) const { return r_.at((i + .5) / kCells, (j + .5) / kCells); }
 
-  // Where the edge of a hole is, as a share of the wall's width (axis 0) or height (1), if it is between
-  // these cells of the grid: at the nearest corner of a polygon. Holes are then as exact as their walls.
+  // The edge of a hole between two cells, as a fraction of the wall's width (axis 0) or height (1). It is
+  // moved to the nearest corner of a polygon, so that holes are as exact as the polygons.
   double edgeAt(size_t axis, int cell) const {
     const double rough = static_cast<double>(cell) / kCells;
     const std::vector<double>& corners = corners_[axis];
@@ -135,7 +136,7 @@ class Coverage {
     return nearest;
   }
 
-  // Counts the connected cells around one.
+  // Finds all uncovered cells that are connected to a cell, and marks them as counted.
   Extent fill(int i, int j) {
     Extent e;
     std::vector<std::array<int, 2>> open{{i, j}};
@@ -163,7 +164,7 @@ class Coverage {
   }
 
   Rectangle r_;
-  // The corners of the polygons, as shares of the wall's width and of its height, each sorted.
+  // The corners of the polygons, as fractions of the wall's width and of its height, each sorted.
   std::array<std::vector<double>, 2> corners_;
   std::array<Cell, static_cast<size_t>(kCells) * kCells> cells_{};
 };

@@ -12,8 +12,8 @@
 namespace rsphere {
 namespace {
 
-// Whether interpolated light is valid at a side. It was gathered in the whole scene, with nothing cut away by
-// antimatter, and in the medium that fills the scene. Its moments give the light at very tilted normals less
+// Whether interpolated light is valid at a side. Interpolated light was gathered in the complete scene,
+// without antimatter, and in the global medium. For very tilted normals, its moments give the light less
 // accurately.
 bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
   const RaySpace& space = end.space();
@@ -26,12 +26,12 @@ SurfacePlace placeOf(const RayEnd& end, const DiffuseSide& side) {
   return {side.point, side.trueNormal, end.hit.surface, &end.hit.path, end.hit.length};
 }
 
-// coefficient: must outlive the result.
+// The result refers to `coefficient`.
 DiffuseSide withCoefficient(const DiffuseSide& side, const Coefficient& coefficient) {
   return {side.point, side.normal, side.trueNormal, side.kind, coefficient};
 }
 
-// The diffuse bounces that the limits allow beyond the end of a ray.
+// The number of diffuse bounces that the limits allow after the end of a ray.
 int bouncesLeft(const RayOptions& o, const PathContext& ray) {
   int left = o.ambientBounces - ray.ambientLevel;
   if (o.reflectionLimit != 0) left = std::min(left, std::abs(o.reflectionLimit) - ray.level);
@@ -69,9 +69,9 @@ void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& va
   gather(end, side, value);
 }
 
-// Adds light of the irradiance cache. False, with nothing added, if it cannot be used here.
+// Adds light from the irradiance cache. Returns false, and adds nothing, if the cache cannot be used here.
 bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
-  // The light at an imagined point (-I) is not interpolated, because no other ray needs it.
+  // Illuminance at a point without a surface (-I) is not interpolated, because no other ray needs it.
   if (end.hit.surface == kNone || !isOrdinary(end, side, t_.options().medium())) return false;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   GatheredLight light;
@@ -80,7 +80,7 @@ bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, 
   return true;
 }
 
-// The same from the coarse solution.
+// Adds light from the coarse solution instead.
 bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   Patch* const patch = patchAt(end, side);
   if (!patch) return false;
@@ -90,8 +90,8 @@ bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Rad
   return true;
 }
 
-// The patch of the coarse solution that gives the light of a side, drawn at random from those around it; null
-// if there is none.
+// The patch of the coarse solution that gives the light of a side, randomly selected from those around it;
+// null if there is none.
 Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
   const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
   if (!isOrdinary(end, side, t_.options().medium())) return nullptr;
@@ -104,28 +104,30 @@ void IndirectLight::endPath() {
   if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
-// The number of directions of a gather. Unbiased paths have as many as in RADIANCE at every bounce: a square
-// number in proportion to their weight. Rays of gathers for interpolation do not split.
+// The number of directions of a gather. Without interpolation it is the same as in RADIANCE at every bounce:
+// a square number that is proportional to the weight. With interpolation, a path continues with one ray at
+// later bounces.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
   const double asked = o.ambientDivisions + o.ambientSuperSamples,
                weighted = asked * std::min(ray.weight, 1.);
   if (settings_.caches.field) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
-  // More directions than this would each fall below the weight limit, and most of them would end. The factor
-  // .8 is RADIANCE's own.
+  // With more directions than this, each would be below the weight limit, and most would end. The factor .8
+  // is also used by RADIANCE.
   const double most =
       asked * .8 * maxChannel(coefficient) * ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20);
   const int side = std::max(1, static_cast<int>(std::sqrt(std::min(weighted, most)) + .5));
   return side * side;
 }
 
-// How many times as many rays the first gather of a path sends as go on. What they meet themselves, such as
-// patches of the sky through windows, is most of the variance of contributions by bin, and what follows is
-// most of the time. Not where there are light sources: each ray that meets a surface would look for them.
+// With -Sh, the first gather of a path sends this number of times as many rays as continue from their first
+// surface. The light at the end of these rays, such as patches of sky seen through windows, causes most of
+// the variance of contributions by bin, but later bounces take most of the time. Not used if there are light
+// sources, because each ray would then sample them.
 int IndirectLight::firstRays() const {
-  // By measurement, by 2306 bins of the sky in a classroom with -ab 5: 4, 8 and 16 times reduce variance
-  // times time to .19, .13 and .13; with 16 it takes more time than the original.
+  // Measured with 2306 bins of the sky in a classroom (-ab 5): 4, 8 and 16 times as many rays change variance
+  // x time by the factors .19, .13 and .13. With 16, the run takes more time than in the original RADIANCE.
   constexpr int kMostDoublings = 3;
   const RayOptions& o = t_.options();
   const bool daylit = settings_.aims.openings && t_.lights().all().empty();
@@ -141,7 +143,7 @@ void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance&
     if (!looksOnly_) send(end, side, rays, {rays, static_cast<double>(times)}, value);
     return;
   }
-  // Rays that go on are as evenly distributed as without the others.
+  // Sent separately, so that the rays that continue are as well stratified as without the others.
   looksOnly_ = false;
   send(end, side, rays, {rays, 1. / times}, value);
   looksOnly_ = true;
@@ -162,7 +164,7 @@ void IndirectLight::send(const RayEnd& end, const DiffuseSide& side, int rays, c
 }
 
 // Links the patch that sent a ray to the patch at the diffuse surface where the ray ended. If there is no
-// patch at that place, the path goes on from there in one direction, unless this is the last bounce.
+// patch there, the path continues in one direction, unless this is the last bounce.
 void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
   Coefficient asked = at.coefficient;
   if (!asksForPatch(state_, end.context, asked)) return;

@@ -2,9 +2,9 @@
 // Indirect diffuse light: the mean radiance from the hemisphere over a surface.
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
-// and the light at later surfaces comes from the coarse solution (coarse_solution.h); in sphere mode, so does
-// the light at the first. With -aa 0, light is gathered from -ad + -as stratified directions at the first
-// diffuse surface, and from as many as in RADIANCE at later ones.
+// and the light at later surfaces comes from the coarse solution (coarse_solution.h). In sphere mode, the
+// coarse solution is used at the first surface too. With -aa 0, light is gathered from -ad + -as stratified
+// directions at the first diffuse surface, and from the same number as in RADIANCE at later ones.
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "transport/path_state.h"
@@ -13,26 +13,26 @@
 
 namespace rsphere {
 
-// A side of a diffuse surface at the end of a ray, where indirect light arrives.
+// The side of a diffuse surface on which the indirect light arrives, at the end of a ray.
 struct DiffuseSide {
   const V3d& point;                // world
-  const V3d &normal, &trueNormal;  // unit normals on this side: perturbed by textures, and the surface's own
-  RayKind kind;                    // kind of the rays that are sent from here
-  const Coefficient& coefficient;  // factor of the mean arriving radiance in the radiance of the ray
+  const V3d &normal, &trueNormal;  // unit normals on this side: perturbed by a texture, and geometric
+  RayKind kind;                    // kind of the rays that leave from here
+  const Coefficient& coefficient;  // factor on the mean arriving radiance in the radiance of the ray
 };
 
 class IndirectLight {
  public:
-  // Keeps references. follower: traces gathers, and the rays that the cache and the coarse solution ask for.
+  // Keeps references. follower: traces the rays of gathers, and those that the caches request.
   IndirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Adds the light of a side to the radiance of a ray (W/sr/m2), or the ambient value (-av) beyond -ab
-  // bounces. No light comes from behind the surface.
+  // Adds the indirect light of a side to the radiance of a ray (W/sr/m2); beyond -ab bounces, adds the
+  // ambient value (-av). Light from behind the surface is excluded.
   void add(const RayEnd& end, const DiffuseSide& side, Radiance& value);
 
-  // Lets the cache free memory that the path has used. To be called at the end of each primary ray.
+  // Lets the cache free memory that the path has used. Call this at the end of each primary ray.
   void endPath();
 
  private:
@@ -42,7 +42,8 @@ class IndirectLight {
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
   int firstRays() const;
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
-  // What rays of a gather bring: a part of it, each ray with the weight that it has among `weighedAs`.
+  // How the rays of send() enter a gather: they contribute the fraction `part` of it, and each ray has the
+  // weight of one of `weighedAs` rays.
   struct Share {
     int weighedAs;
     double part;
@@ -55,7 +56,7 @@ class IndirectLight {
   PathState& state_;
   RayFollower& follower_;
   FieldReader reader_;
-  bool looksOnly_ = false;  // rays of the first gather do not go on beyond diffuse surfaces (-Sh)
+  bool looksOnly_ = false;  // rays of the first gather end at the first diffuse surface (-Sh)
 };
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// Particles of light from the sources of a scene, each with the same power.
+// Particles that carry light from the sources of a scene, all with the same power.
 #include "light/sources.h"
 #include "scene/random.h"
 #include "trace/tracer.h"
@@ -12,16 +12,16 @@ namespace rsphere {
 using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
                                       const Surface& source, Random& random)>;
 
-// The light that a real source sends out (W, of brightness). reach: half the extent of the scene (world
-// units), within which distant sources shine.
+// The power of a real source (W, of brightness). reach: half the diagonal of the scene's bounds (world
+// units). The power of a distant source is the power that enters a disk with this radius.
 double powerOf(const Scene& scene, const LightSource& light, double reach);
 
-// Sends about `count` particles from all real sources, in proportion to their power. Those of distant sources
-// start outside the scene. The same scene gives the same particles.
+// Sends about `count` particles from all real sources; the number from each is proportional to its power.
+// Particles of distant sources start outside the scene. The particles depend only on the scene.
 void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
                    SentParticle each);
 
-// A random direction (unit) on the front side, distributed like the light that a diffuse surface reflects.
+// A random direction (unit) on the front side, distributed like diffusely reflected light.
 V3d sentFrom(const V3d& normal, Random& random);
 
 }  // namespace rsphere

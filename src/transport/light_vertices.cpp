@@ -15,7 +15,7 @@ namespace {
 
 using Tuning = tuning::LightVertices;
 
-// Every third bit of the result is one of the lowest 10 bits of x.
+// Moves the lowest 10 bits of x apart, so that each is followed by two zero bits.
 uint32_t spread(uint32_t x) {
   x = (x | x << 16) & 0x030000ff;
   x = (x | x << 8) & 0x0300f00f;
@@ -23,8 +23,8 @@ uint32_t spread(uint32_t x) {
   return (x | x << 2) & 0x09249249;
 }
 
-// The order of points along Morton's curve through a grid of 1024 cells a side: points that lie near to each
-// other mostly follow each other.
+// The order of points along a Morton curve through a grid of 1024 cells a side. Points that are near each
+// other are mostly near each other in this order too.
 template <class PointOf>
 std::vector<uint32_t> orderByPlace(size_t count, const PointOf& pointOf) {
   constexpr double kCells = 1024;
@@ -72,7 +72,7 @@ LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVerte
 double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, const V3d& toSource) {
   const double color = brightness(m.color), diffuse = color * (1 - m.specularity);
   if (!hasRoughHighlight(m)) return diffuse;
-  // Ward's lobe about the halfway vector, without its dependence on the cosines.
+  // Ward's lobe around the halfway vector, without its dependence on the cosines.
   const V3d half = toSource - view;
   const double along = half.dot(normal), square = along * along;
   if (!(along > 0)) return diffuse;
@@ -81,7 +81,7 @@ double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, co
          m.specularity * (m.metal ? color : 1) * std::exp((1 - half.length2() / square) / a2) / (4 * a2);
 }
 
-// One light path on its way. It adds vertices to the lists.
+// One light path. It adds its vertices to the lists.
 class LightVertices::Path {
  public:
   Path(const PreparedScene& prepared, LightVertices& all, size_t number, uint64_t seed)
@@ -91,10 +91,10 @@ class LightVertices::Path {
         batch_(number % LightVertex::kBatches) {}
 
   struct Course {
-    double firstLength = 0;          // of the first segment, world units; 0 if the path met nothing
-    size_t met = 0, metUnknown = 0;  // numbers of surfaces
+    double firstLength = 0;          // of the first segment, world units; 0 if the path hit nothing
+    size_t met = 0, metUnknown = 0;  // numbers of surfaces that were hit
   };
-  // where: from 0 to 1, chooses the source by its share of the power of all sources.
+  // where: number from 0 to 1 that selects the source, with probabilities proportional to power.
   Course send(double where);
 
  private:
@@ -107,20 +107,20 @@ class LightVertices::Path {
   bool reflect(const PlainPlace& at);
   bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
-  // The light on its way.
+  // The current segment of the path.
   struct Beam {
     V3d origin, direction;
     SurfaceId start;
     Irradiance power;
     double length = 0;  // since the last reflection
   };
-  // Where the light comes from.
+  // The history of the path.
   struct Past {
     LightId source;
     double cosineAtSource = 0;
     LightVertex::Way way = LightVertex::direct;
     bool senderIsUnbounded = false;  // isUnbounded() of the vertex that sent the light
-    bool fromSource = true;          // nothing has reflected it yet
+    bool fromSource = true;          // no surface has reflected the light yet
     int bounces = 0;
   };
   struct Work {
@@ -184,7 +184,7 @@ bool LightVertices::Path::leave(double where) {
   return true;
 }
 
-// Continues the path through a pane or mirrors it there. Returns false if the path ends.
+// Continues the path through a pane, or reflects it there. Returns false if the path ends.
 bool LightVertices::Path::passPane(const Hit& hit) {
   Interaction view = plainInteraction(beam_.direction, hit.normal, true);
   if (past_.fromSource) view.kinds = kShadow;  // no reflection
@@ -206,8 +206,8 @@ bool LightVertices::Path::passPane(const Hit& hit) {
   return false;
 }
 
-// Mirrors the path; returns false if it ends. It ends at the back of a mirror, which is black. Straight from
-// the source it also ends at curved mirrors, because they make no images that light other surfaces.
+// Reflects the path at a mirror; returns false if it ends. It ends at the black back of a mirror. A path that
+// comes directly from its source also ends at curved mirrors, because they make no images of sources.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
   if (hit.cosine <= 0 || (past_.fromSource && all_.emission_.imageOf(past_.source, hit.surface) == kNone))
     return false;
@@ -255,7 +255,7 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
                      at.material, at.pattern, at.flat, beam_.length, direct ? shadowRaysTo(at) : 0});
 }
 
-// SourceEmission::shadowRaysOver() for direct light.
+// SourceEmission::shadowRaysOver() for the place on the source where this path began.
 double LightVertices::Path::shadowRaysTo(const PlainPlace& at) {
   std::span<const uint32_t> sources;
   const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, work_.weights);
@@ -269,8 +269,8 @@ double LightVertices::Path::shadowRaysTo(const PlainPlace& at) {
   return all_.emission_.shadowRaysOver(same, at.normal, work_.weights[static_cast<size_t>(own)] / sum);
 }
 
-// Chooses between diffuse reflection, specular reflection and the end of the path, by power. Returns false if
-// the path ends.
+// Selects diffuse reflection, specular reflection or the end of the path, with probabilities proportional to
+// power. Returns false if the path ends.
 bool LightVertices::Path::reflect(const PlainPlace& at) {
   const Opaque& m = *at.material;
   const Interaction view = plainInteraction(beam_.direction, at.normal, at.flat, at.pattern);
@@ -301,14 +301,14 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
   past_.way = past_.fromSource ? LightVertex::highlight : LightVertex::sharp;
-  if (past_.fromSource) ++past_.bounces;  // for the next surface, the light of the highlight is indirect
+  if (past_.fromSource) ++past_.bounces;  // a highlight is indirect light at the next surface
   if (s.sharp.count > 0) {
     beam_.direction = s.sharp.path[0].direction;
     beam_.power = beam_.power * s.sharp.path[0].coefficient * scale;
   } else {
     const double u1 = random_.uniform(), u2 = random_.uniform();
     V3d next;
-    // The lobe is the same for both directions of the light.
+    // The lobe is reciprocal, so that it can be sampled from this side.
     const double weight = sampleReflection(s, view, 1, u1, u2, next);
     beam_.direction = next;
     beam_.power = Irradiance(beam_.power.color * s.specularReflection * (weight * scale));
@@ -323,7 +323,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   const auto count = static_cast<double>(paths);
   size_t met = 0, metUnknown = 0;
   for (size_t i = 0; i < paths; ++i) {
-    // Stratified, so that each batch has about the same number of paths from each source.
+    // Stratified, so that all batches have nearly the same number of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
     const Path::Course course = Path(prepared, *this, i, seed).send(where);
     met += course.met;
@@ -336,7 +336,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
                               Tuning::kLeastRest, 1.);
 }
 
-// The widths depend on the size of the room, which is measured by the mean length of first segments.
+// The distances depend on the size of the room, which is estimated by the mean length of first segments.
 NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, uint64_t seed) {
   const size_t tried = std::min(paths, tuning::Caps::kAsked);
   double sum = 0;
@@ -363,8 +363,8 @@ void LightVertices::sort() {
 
 void VisibleVertices::sort(const PreparedScene& prepared) {
   permute(all_, orderByPlace(all_.size(), [&](size_t i) { return all_[i].vertex.point(); }));
-  // Boxes are made only in scenes where light sources are hidden from some regions. In other scenes, few
-  // regions are hidden from each other.
+  // Boxes are only made if light sources are hidden from some regions. In other scenes, few regions are
+  // hidden from each other.
   if (!prepared.lights().hidden().divides()) return;
   std::vector<Box3d> boxes((all_.size() + kBlock - 1) / kBlock);
   for (size_t i = 0; i < all_.size(); ++i) boxes[i / kBlock].extendBy(all_[i].vertex.point());
@@ -378,7 +378,7 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 }
 
 double NearLight::closeShare(double distance, double fromEye) const {
-  // The share is cut off to 0 beyond ten times the width, so that few vertices have any.
+  // The share is cut off beyond ten times the distance at which it is 1/2, so that it is 0 for most vertices.
   constexpr double kRest = 1. / 101;
   const double close = Tuning::kClose * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);

@@ -17,8 +17,8 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
     if ((point - o.corner).dot(o.normal) <= 0) continue;
-    // The form factor to the opening, estimated from five of its points: the mean over the middle and four
-    // points that are so far apart, the root of 5/12, is exact for polynomials of the third degree.
+    // The form factor to the opening, estimated from its middle and four other points. These are separated by
+    // sqrt(5/12) of its sides, so that the mean of the five is exact for polynomials of the third degree.
     constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
     double factor = 0;
     for (int c = 0; c < 5; ++c) {

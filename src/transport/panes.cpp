@@ -4,8 +4,8 @@
 
 namespace rsphere {
 
-// Cap on the panes that a line passes, far above those of any building. It ends lines that rounding keeps
-// from leaving a pane.
+// Cap on the number of panes that a line crosses, far above that of any building. Rounding errors could
+// otherwise keep a line at the same pane forever.
 constexpr int kMostPanes = 1000;
 
 static_assert(kMaterialTypes == 19, "Does diffuse light pass?");
@@ -20,7 +20,7 @@ bool lightPasses(const PreparedScene& prepared, const Surface& surface) {
       return data.transmission(true) || !isBlack(data.diffuseTransmittance(true)) ||
              !isBlack(data.diffuseTransmittance(false));
     } catch (const rad::Error&) {
-      return false;  // rays that hit it report the file
+      return false;  // the file's fault is reported when a ray hits the surface
     }
   }
   return isTransparent(*material) || std::holds_alternative<Prism>(*material);

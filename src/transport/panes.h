@@ -1,5 +1,5 @@
 #pragma once
-// Panes of all materials that let light through, and straight lines through them.
+// Recognizes panes of all materials that transmit light, and follows straight lines through them.
 #include <optional>
 
 #include "scene/scene.h"
@@ -10,19 +10,20 @@ namespace rsphere {
 
 class PreparedScene;
 
-// Whether light from behind may come through a surface: of a transparent or diffusing material, a BSDF or a
-// prism. False for volumes, light sources, surfaces without a material, and BSDFs whose files cannot be read.
+// Whether light may pass a surface from behind: true for transparent and diffusely transmitting materials,
+// BSDFs and prisms. False for volumes, light sources, surfaces without a material, and BSDFs whose files
+// cannot be read.
 bool lightPasses(const PreparedScene& prepared, const Surface& surface);
 
-// The last part of a straight line: from the last pane, or from its origin, to what it hits (surface kNone:
-// nothing).
+// The last segment of a straight line: from the last pane, or from the line's origin, to the first surface
+// that is not a pane (kNone if there is none).
 struct LastPart {
   V3d origin{0, 0, 0};
   Hit hit;
 };
 
-// Follows a straight line through surfaces without a material and through those that `passes` accepts.
-// direction: unit. Empty if it meets more than 1000 of them, which only rounding can cause.
+// Follows a straight line through surfaces without a material, and through those for which `passes` is true.
+// direction: unit. Empty if the line crosses more than 1000 of them, which only rounding errors can cause.
 std::optional<LastPart> beyondPanes(const Scene& scene, const Tracer& tracer, V3d origin,
                                     const V3d& direction, FunctionRef<bool(const Surface&)> passes);
 

@@ -34,8 +34,8 @@ void ParticipatingMedia::passThrough(const RayEnd& end, Radiance& value) {
   addScattered(end, value);
 }
 
-// Adds single scattering of the light from sources. It is sampled at one random point in each step (-ms)
-// along the ray.
+// Adds single scattering of light from the sources. Each step along the ray (-ms) is sampled at one random
+// point.
 void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
   const Medium& medium = end.medium();
   const double length = end.hit.length;
@@ -45,7 +45,7 @@ void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
   const int steps = stepLength > kNegligible
                         ? static_cast<int>(std::clamp(length / stepLength + .5, 1., double{kMostSteps}))
                         : 1;
-  // A ray that ends at the point of scattering.
+  // The ray from its origin to the point of scattering.
   const RayQuery query{.origin = V3d(0, 0, 0), .direction = end.ray.direction};
   const PathContext context{.kinds = 0,
                             .depth = end.context.depth,

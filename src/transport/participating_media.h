@@ -1,5 +1,5 @@
 #pragma once
-// Media that absorb and scatter light along a ray (-me, -ma, -mg, mist).
+// Media that absorb and scatter light along a ray (-me, -ma, -mg, and the material mist).
 #include "transport/direct_light.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
@@ -13,9 +13,9 @@ class ParticipatingMedia {
   ParticipatingMedia(const PreparedScene& prepared, PathState& state, DirectLight& direct)
       : t_(prepared), state_(state), direct_(direct) {}
 
-  // Attenuates the radiance at the end of a ray by the medium on the way to its origin, and adds the light
-  // that the medium scatters into the ray: that of the uniform ambient value (-av) and of the sources that
-  // mist names.
+  // Attenuates the radiance at the end of a ray by the medium along the ray, and adds the light that the
+  // medium scatters into the ray. Only two kinds of light are scattered: the uniform ambient value (-av), and
+  // light from the sources that mist names.
   void participate(const RayEnd& end, Radiance& value) {
     if (isMedium(end.medium().extinction)) passThrough(end, value);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The request for a path, and its results besides radiance.
+// What a caller requests of a path, and the results of a path besides its radiance.
 #include <functional>
 
 #include "trace/tracer.h"
@@ -9,48 +9,47 @@ namespace rsphere {
 
 class VertexLight;
 
-// The light source that a primary ray showed, and the surface that mirrored it;
-// kNone if there is none.
+// The light source that is visible along a primary ray, and the surface that mirrors it; kNone if there is
+// none.
 struct ShownSource {
   SurfaceId source;
   SurfaceId mirror;
   bool operator==(const ShownSource&) const = default;
 };
 
-// Called with every finished ray of a path (rtrace's -ot, -oT). The attenuation by the medium in front of its
-// hit is not yet in its result.
+// Called for every finished ray of a path (rtrace's -ot, -oT). The result is not yet attenuated by the medium
+// along the ray.
 using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
-// The shadow rays that an observer is shown.
+// Selects the shadow rays that the observer is called for.
 enum class ShownShadows : uint8_t {
   thatPassSurfaces,  // those that hit a surface that may transmit light
-  thatArrive,        // the above, and those that reach their source unobstructed
-  all                // the above, and those that are blocked
+  thatArrive,        // also those that reach their source unoccluded
+  all                // also those that are blocked
 };
 
-// What differs from path to path. Leaving something out changes the expected radiance; nothing else here
-// does.
+// The options of a single path. Only those that leave something out change the expected radiance.
 struct PathRequest {
-  // Is shown every ray: descendants before their ancestors, and the primary ray last (except under -I, where
-  // it hits nothing). Null: no observer. Changes no answer.
+  // Called for every ray. Descendants come before their ancestors, and the primary ray comes last (except
+  // with -I, where it hits nothing). Null: no observer. It does not change any answer.
   const RayObserver* observer = nullptr;
   ShownShadows shadows = ShownShadows::thatPassSurfaces;
-  // leavesOutIndirect: the surface that the primary ray hits is shown without its indirect light.
-  // leavesOutLobes: it is shown without the samples of its rough reflections and transmissions.
+  // leavesOutIndirect: the indirect light of the surface hit by the primary ray is left out.
+  // leavesOutLobes: the samples of rough reflection and transmission at that surface are left out.
   bool leavesOutIndirect = false, leavesOutLobes = false;
-  // The source of indirect light, by paths from both ends, for plain surfaces (plain_surfaces.h) that the
-  // path meets before its first diffuse reflection. If the primary ray hits such a surface straight or
+  // If not null, paths from both ends provide the indirect light of plain surfaces (plain_surfaces.h) that
+  // the path hits before its first diffuse reflection. If the primary ray hits a plain surface directly or
   // through panes, the surface's diffuse reflection is left out, and so are shadow rays for its rough
   // highlight. Null: plain surfaces are shaded like others.
   const VertexLight* vertexLight = nullptr;
 };
 
-// What PathRequest::leavesOutIndirect and leavesOutLobes left out of a path.
+// The parts of the light that were left out because of PathRequest::leavesOutIndirect and leavesOutLobes.
 struct LeftOut {
   bool indirect = false, lobes = false;
 };
 
-// A ray that was traced: the question, what it hit, and the answer.
+// A ray that was traced: the query, the hit and the result.
 struct TracedRay : RayQuery, SurfaceHit, RayResult {
   TracedRay() = default;
   TracedRay(const RayEnd& end, const RayResult& result)
@@ -59,14 +58,14 @@ struct TracedRay : RayQuery, SurfaceHit, RayResult {
         RayResult(result),
         contribution(end.context.contribution * passedBy(end)) {}
 
-  Coefficient contribution{1};  // share of its result in that of the primary ray
-  // Of a primary ray:
-  Hit firstHit;  // as Tracer::nearest found it
-  // The light source that the ray showed: one that it hit, directly or straight through panes that also
-  // transmit shadow rays, after at most one reflection by a flat surface; a distant one also through slabs of
-  // parallel faces. If there are several, the one that was not mirrored, otherwise the first.
+  Coefficient contribution{1};  // factor on its result in the result of the primary ray
+  // The remaining members describe a primary ray.
+  Hit firstHit;  // the hit that Tracer::nearest() found
+  // The light source that the ray shows. It is hit directly, or after one reflection by a flat surface, or
+  // straight through panes that also transmit shadow rays; a distant source also through parallel-sided
+  // slabs. If there are several, it is the one that is not mirrored, otherwise the first.
   ShownSource shown;
-  LeftOut leftOut;  // the parts that the request left out, if the surface has them
+  LeftOut leftOut;  // parts that the request left out and that the surface has
 };
 
 }  // namespace rsphere

@@ -15,15 +15,16 @@
 namespace rsphere {
 namespace {
 
-// -I: distance (world units) from the ray's origin to its imagined surface, as in rtrace.
+// With -I: distance (world units) of the fictitious surface from the ray's origin, as in rtrace.
 constexpr double kMeterLength = 1e-5;
 
-// The maximal depth of the recursion. It takes at most 40 MB of stack; runRecords() gives its threads more.
+// Cap on the depth of the recursion, which then takes at most 40 MB of stack. Threads of runRecords() have
+// more.
 constexpr int kDeepest = 20500;
-// Stack (bytes) that the work at one surface may need, including a ray through nested octrees.
+// Stack (bytes) that processing one surface may take, including a ray through nested octrees.
 constexpr uintptr_t kStackReserve = 512 << 10;
 
-// The lowest address of this thread's stack. The system is asked once per thread.
+// The lowest address of this thread's stack. The system is only queried once per thread.
 uintptr_t stackEnd() {
   thread_local const uintptr_t end = [] {
     pthread_attr_t attributes;
@@ -50,7 +51,7 @@ void checkDepth(const PathContext& ray) {
 
 }  // namespace
 
-// The recursion and its parts.
+// The recursion, and the objects that it consists of.
 class PathTracer::Path final : public RayFollower {
  public:
   Path(const PreparedScene& prepared, const PathSettings& settings)
@@ -67,7 +68,7 @@ class PathTracer::Path final : public RayFollower {
     state_.descendants = descendantsOfPrimary(
         settings_.mode, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
   }
-  // What has been found along the primary ray.
+  // The results of the primary ray.
   TracedRay traced(const RayEnd& end, const RayResult& result) const;
   // The context of a primary ray.
   PathContext context() const {
@@ -99,7 +100,7 @@ class PathTracer::Path final : public RayFollower {
   PathState state_;
   SurfaceShading shading_;
   ParticipatingMedia media_;
-  std::unique_ptr<Path> gatherer_;  // traces gathers, each as a new path within this one
+  std::unique_ptr<Path> gatherer_;  // traces gathers, each as a separate path
 };
 
 // ---- the recursion
@@ -120,8 +121,8 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   checkDepth(next.context);
   RayEnd end(next.query, next.context);
   find(end);
-  // Any number of surfaces without a modifier is passed in this loop instead of by recursion, unless an
-  // observer is to be shown each of them.
+  // Surfaces without a modifier are passed in this loop instead of by recursion, so that their number is not
+  // limited, unless an observer has to be called for each.
   while (!state_.request.observer && end.hit.surface != kNone &&
          t_.scene().surfaces[end.hit.surface].modifier == kNone && end.hit.length < kFarAway &&
          !isMedium(next.context.space.medium.extinction)) {
@@ -139,15 +140,15 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   return result;
 }
 
-// What returns along a ray whose hit has been found.
+// The result of a ray whose hit is known.
 [[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
   RayResult result;
   if (const SurfaceId surface = end.hit.surface; surface != kNone) {
     result.unmirroredLength = end.hit.length;
     if (!shading_.shade(end, result) && !t_.scene().surfaces[surface].shape.as<Distant>()) result = pass(end);
   }
-  // Rays that only determine the light of an unobstructed source are not shown. Shadow rays that hit nothing
-  // are not shown either: they miss their source by rounding errors.
+  // The observer is not called for rays that only determine the light of an unoccluded source. Nor is it
+  // called for shadow rays that hit nothing, which miss their source only because of rounding errors.
   if (state_.request.observer && !end.ray.unobstructed &&
       (end.ray.aimedAt == kNone || end.hit.surface != kNone))
     (*state_.request.observer)(end, result);
@@ -155,7 +156,7 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   return result;
 }
 
-// Nested gathers each use another path.
+// Each level of nested gathers uses a separate Path.
 InnerPath PathTracer::Path::beginGather(uint64_t seed, const V3d& normal) {
   if (!gatherer_)
     gatherer_ = std::make_unique<Path>(t_, PathSettings{settings_.caches, settings_.caches.aims, {}});

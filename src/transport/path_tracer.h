@@ -1,8 +1,9 @@
 #pragma once
-// Radiance along a ray: emission, direct light from the sources (direct_light.h), sharp reflections and
-// refractions and samples of rough ones (specular_light.h), and indirect light (indirect_light.h), attenuated
-// by the medium on the way (participating_media.h). surface_shading.h adds these up for the material that a
-// ray hits. Paths end after -ab diffuse bounces, and by -lr and -lw (ray_limits.h).
+// Radiance along a ray. It consists of emission, direct light from the sources (direct_light.h), sharp
+// reflections and refractions, samples of rough ones (specular_light.h), and indirect light
+// (indirect_light.h), all attenuated by the medium along the ray (participating_media.h). surface_shading.h
+// adds these up for the material that a ray hits. Paths end after -ab diffuse bounces, and according to -lr
+// and -lw (ray_limits.h).
 #include <memory>
 
 #include "transport/path_observer.h"
@@ -15,33 +16,33 @@ namespace rsphere {
 // the prepared scene, the aims and the mode.
 class PathTracer {
  public:
-  // Keeps references to the scene and the caches; caches without fields: nothing is interpolated. aims: for
-  // the gathers that do not serve the caches.
+  // Keeps references to the scene and the caches. If the caches are null, nothing is interpolated. aims: for
+  // all gathers except those that fill the caches.
   PathTracer(const PreparedScene& prepared, const Caches& caches, const Aims& aims,
              const TracingMode& mode = {});
   ~PathTracer();
   PathTracer(PathTracer&&) noexcept;
 
-  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) if PreparedScene::irradiance asks for it: on
-  // the surface that is hit, or on an imagined one just ahead that faces the ray (see inputRay() for where -I
-  // starts). direction: unit. farthest: 0 for no limit (-ld, world units). The seed determines every random
-  // number of the path. Throws rad::Error
-  // - if a path passes through more than 20500 surfaces in succession,
-  // - if it passes through more than this thread's stack has room for (at most 2 kB each),
-  // - if Russian roulette has no weight limit to compare with (-lw 0).
+  // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) according to PreparedScene::irradiance: on
+  // the surface that is hit (-i), or on a fictitious surface at the origin that faces the ray (-I; see
+  // inputRay()). direction: unit. farthest: limit on the distance (-ld, world units); 0: none. The seed
+  // determines all random numbers of the path. Throws rad::Error - if a path passes more than 20500 surfaces
+  // in succession, - if it passes more surfaces than this thread's stack has room for (at most 2 kB each), -
+  // if Russian roulette has no weight limit to compare with (-lw 0).
   TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
                   const PathRequest& request = {});
 
-  // The radiance along a primary ray to a light source, equal to that of trace(). It costs one shadow ray if
-  // no surface that may transmit light lies in between. TracedRay::shown says whether the ray showed the
-  // source.
+  // Radiance along a primary ray to a light source, equal to that of trace(). It takes only a shadow ray if
+  // no surface in between may transmit light. TracedRay::shown indicates whether the source is visible along
+  // the ray.
   TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                           const PathRequest& request = {});
 
-  // The radiance (W/sr/m2) along a ray after which at most one diffuse bounce is followed, in one direction.
+  // Radiance (W/sr/m2) along a ray, with at most one further diffuse bounce, for which one direction is
+  // sampled.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
-  // Finds the surface that a ray hits; its value stays 0.
+  // Finds the surface that a ray hits, without its radiance: value is 0.
   TracedRay cast(const V3d& origin, const V3d& direction, double farthest);
 
  private:

@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-// A line ends this share of its length before the place that it leads to, which lies on a surface.
+// A line to a place on a surface ends before that place by this fraction of its length.
 constexpr double kEnd = 1e-6;
 
 template <class T>
@@ -17,14 +17,14 @@ bool holds(const Material* material) {
   return material && std::holds_alternative<T>(*material);
 }
 
-// The material of a finish that is not cut by antimatter and has all of its modifiers itself, otherwise null.
+// The material of a finish if it is the surface's own modifier and no antimatter clips it; otherwise null.
 const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   if (finish.modifier != finish.material || finish.clip != 0) return nullptr;
   return scene.materialAt(finish.material);
 }
 
-// Whether all modifiers from one on are patterns of a kind. Faults of a pattern are reported when a ray meets
-// it.
+// Whether `modifier` and all modifiers after it are patterns that satisfy isOfKind. Errors are ignored here,
+// and reported when a ray hits the pattern.
 template <class IsOfKind>
 bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKind) {
   for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
@@ -88,7 +88,7 @@ void PlainSurfaces::findSources() {
   const auto& lights = prepared_.lights().all();
   knownSources_.resize(lights.size());
   for (const LightId i : lights.ids()) {
-    knownSources_[i] = isKnown(i);  // an image comes after its source, which isKnown() looks up
+    knownSources_[i] = isKnown(i);  // images come after their sources, which isKnown() looks up
     hasKnownSources_ = hasKnownSources_ || knownSources_[i];
     coverage_.allSources = coverage_.allSources && knownSources_[i];
   }
@@ -100,7 +100,7 @@ bool PlainSurfaces::isKnown(LightId source) const {
   if (light.isDistant() || light.reach > 0) return false;
   if (light.isVirtual()) return finishOf(light.surface).mirror && knownSources_[light.relayed];
   const auto* const plane = light.as<PlaneLight>();
-  // Samples of concave and bent polygons miss parts of them. Rings have no hole, or cannot be sources.
+  // Not known: concave and bent polygons, parts of which samples miss. A ring that is a source has no hole.
   const bool isRing = plane && std::holds_alternative<PlaneLight::Disk>(plane->map);
   if (!light.hitsWhereAimed && !isRing && !light.as<TubeLight>()) return false;
   if (light.spot && !plane) return false;
@@ -134,8 +134,9 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
-  // By measurement in an open-plan office with a sheet of paper or a crystal ball: around a goal half the
-  // error in twice the time, by lamps the same error in two thirds more.
+  // With an unknown surface (a sheet of paper or a crystal ball in an open-plan office), bidirectional
+  // estimation only pays around a goal. Measured: around a goal half the error in twice the time; by lamps
+  // the same error in two thirds more time.
   if (!coverage_.all && !scene_.importance) return "surfaces or sources that are not known";
   for (const auto& modifier : scene_.modifiers)
     if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
@@ -220,12 +221,12 @@ Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const
   here.v = hit.v;
   here.path = hit.path;
   Color pattern = patternFrom(finishOf(at.surface).patterns, here, scratch);
-  // What reflects a negative share of light counts as black.
+  // A negative reflectance is treated as black.
   pattern.transform([](double share) { return std::max(0., share); });
   return pattern;
 }
 
-// The product of the patterns of a chain.
+// The product of all patterns of a chain.
 Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
                                  FunctionScratch& scratch) const {
   Color pattern(1, 1, 1);

@@ -1,21 +1,22 @@
 #pragma once
-// The surfaces and light sources that paths from both ends know (light_vertices.h, vertex_light.h):
-// - plastic, metal, glass and mirrors without textures, mixtures or antimatter, plastic and metal also with
-//   patterns that are the same for all rays;
-// - local sources that shadow rays can be aimed at, and their images in mirrors.
-// Paths from both ends bring the light of known sources that has met known surfaces alone. All other light is
-// left to the paths that path_tracer.h follows from the eye. All code uses this one rule of what is known, so
-// that each path of light is found by one method only, or by several with weights that add up to 1.
+// The surfaces and light sources that bidirectional estimation can handle, called "known" (light_vertices.h,
+// vertex_light.h):
+// - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
+//   patterns, if these are the same for all rays;
+// - local sources at which shadow rays can be aimed, and their images in mirrors.
+// Paths from both ends estimate the light of known sources that has met only known surfaces. Paths from the
+// eye (path_tracer.h) estimate all other light. All code uses this definition of "known", so that each light
+// path is estimated by exactly one method, or by several with weights that add up to 1.
 #include <vector>
 
 #include "transport/prepared_scene.h"
 
 namespace rsphere {
 
-// A place on a surface of plastic or metal, as seen from one side.
+// A place on a surface of plastic or metal, seen from one side.
 struct PlainPlace {
-  V3d point{0, 0, 0}, normal{0, 0, 1};  // world; unit, towards the side that it is seen from
-  const Opaque* material = nullptr;     // null: none of the surfaces that are known
+  V3d point{0, 0, 0}, normal{0, 0, 1};  // world; normal: unit, towards the viewer
+  const Opaque* material = nullptr;     // null: the surface is not known
   SurfaceId surface;
   bool flat = false;  // Interaction::flat
   Color pattern{1, 1, 1};
@@ -23,20 +24,20 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// The first hit of a straight line that is not a pane of glass.
+// The first hit along a straight line that is not a pane of glass.
 struct Sight {
-  Hit hit;                // its distance is measured from the last pane
-  double distance = 0;    // of the hit from the start, world units
-  Coefficient passed{1};  // share of the light that the panes in between let pass
+  Hit hit;                // its distance is that from the last pane
+  double distance = 0;    // of the hit from the line's start, world units
+  Coefficient passed{1};  // fraction of the light that the panes in between transmit
 };
 
-// What a finish (scene/surface_list.h) is to paths from both ends. Null: it is none of that material, or not
-// a known one.
+// The material of a finish (scene/surface_list.h) as seen by bidirectional estimation. At most one is not
+// null; all are null if the finish is not known.
 struct PlainFinish {
   const Opaque* opaque = nullptr;  // plastic or metal
   const Glass* pane = nullptr;
   const Mirror* mirror = nullptr;
-  ModifierId patterns = kNone;  // the first in its chain; kNone: none
+  ModifierId patterns = kNone;  // first one in its chain of patterns; kNone: none
 };
 
 // Shared by all threads. Keeps references to the scene and its tracer.
@@ -44,16 +45,17 @@ class PlainSurfaces {
  public:
   explicit PlainSurfaces(const PreparedScene& prepared);
 
-  // The reason why paths from both ends cannot be used, or would bring too little light; null if they can be
+  // The reason why paths from both ends cannot be used or would provide too little light; null if they can be
   // used.
   const char* obstacle() const;
 
-  // How much of the scene's light is light of known paths.
+  // How much of the scene's light paths from both ends estimate.
   struct Coverage {
-    bool allSources = true;    // all sources are known
-    bool all = true;           // known paths bring all of the light: all surfaces and sources are known
-    bool allDirect = true;     // known paths bring all of the direct light of known surfaces
-    bool passUnknown = false;  // shadow rays to a known source may bring light of paths that are not known
+    bool allSources = true;  // all sources are known
+    bool all = true;         // all light: all surfaces and sources are known
+    bool allDirect = true;   // all direct light of known surfaces
+    // Shadow rays to a known source may also carry light that passes unknown surfaces.
+    bool passUnknown = false;
   };
   const Coverage& coverage() const { return coverage_; }
 
@@ -66,23 +68,23 @@ class PlainSurfaces {
   }
   bool knows(LightId source) const { return knownSources_[source]; }
   bool isFlat(SurfaceId surface) const;  // Interaction::flat
-  // The radiance (W/sr/m2) that a known source, not an image, sends from a point on it. normal: of its front
-  // at the point (unit). direction: towards the point (unit).
+  // The radiance (W/sr/m2) that a known real source sends from a point on it. normal: of its front at the
+  // point (unit). direction: of the ray that hits the point (unit).
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
                       FunctionScratch& scratch) const;
-  // SourceChoice::weigh() of the sources that are not certainly hidden from the point (hidden_boxes.h). It
-  // returns these sources in `sources`. Sources for which knows() is false get the weight 0.
+  // SourceChoice::weigh() for the sources that are not certainly hidden from the point (hidden_boxes.h); sets
+  // `sources` to these. Sources for which knows() is false get the weight 0.
   double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                std::vector<double>& weights) const;
 
-  // Follows a straight line through panes of glass. direction: unit. start: the surface that the line starts
-  // on, or kNone.
+  // Follows a straight line through panes of glass. direction: unit. start: the surface on which the line
+  // starts, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
-  // The share of light that passes straight between two places (world): black if anything but panes lies
-  // between. start: as for look().
+  // The transmittance of the panes on the straight line between two places (world); black if anything else
+  // lies between them. start: as in look().
   Coefficient passing(const V3d& from, const V3d& to, SurfaceId start) const;
 
-  // The place that a sight from `origin` along a direction shows.
+  // The place that is hit by a line from `origin` in a direction, given the result of look().
   PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
                      FunctionScratch& scratch) const;
 
@@ -102,21 +104,21 @@ class PlainSurfaces {
   bool hasPanes_ = false, hasKnownSources_ = false;
 };
 
-// A hit as scatter() of a plain material takes it.
+// Describes a hit on a plain material, for scatter().
 Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
                              const Color& pattern = Color(1, 1, 1));
 
-// Whether a material shows rough highlights of sources, which are sampled together with its diffuse light.
+// Whether a material has rough highlights of sources. They are sampled together with its diffuse light.
 inline bool hasRoughHighlight(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
 }
 
-// The parts of the direct light of a place.
+// Parts of the reflected direct light at a place.
 enum class Shown : uint8_t { none, highlight, all };
 
-// The radiance that a place shows by diffuse reflection and its rough highlight, relative to the radiance of
-// a source of this solid angle (sr) in a direction (unit). view: direction (unit) of the ray that sees the
-// place.
+// The radiance that a place reflects, diffusely and in its rough highlight, relative to the radiance of a
+// source of this solid angle (sr). toSource: direction to the source (unit). view: direction of the ray that
+// hits the place (unit).
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
                           Shown shown = Shown::all);
 

@@ -10,22 +10,22 @@
 
 namespace rsphere {
 
-// Seeds are combined with these bits, so that -Sr changes them. 0 for -Sr 0, where seeds depend only on
-// places and rays.
+// Bits that are combined with seeds, so that -Sr changes them. They are 0 for -Sr 0, where seeds depend only
+// on places and rays.
 inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
 
-// The scene prepared for tracing: its tree, functions, light sources and options. Shared by all threads;
-// constant once constructed. Keeps a reference to the scene.
+// A scene prepared for tracing: tree, functions, light sources and options. Shared by all threads, and
+// constant after construction. Keeps a reference to the scene.
 class PreparedScene {
  public:
-  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: gets
-  // the warnings of SurfaceFunctions and LightSources.
+  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn:
+  // receives the warnings of SurfaceFunctions and LightSources.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
-  // Prepares the scene of `other` with other options, without warnings. Both share the tracer, which takes
-  // most of the memory and time in a large scene. REQUIRES: -bv is the same.
+  // Prepares the scene of `other` with other options, without warnings. They share the tracer, which takes
+  // most of the memory and time in a large scene. REQUIRES that -bv is the same.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
@@ -53,14 +53,14 @@ class PreparedScene {
   std::shared_ptr<const Tracer> tracer_;
   SurfaceFunctions functions_;
   SceneLights lights_;
-  ById<SurfaceId, bool> ambient_;  // empty: all of them
+  ById<SurfaceId, bool> ambient_;  // empty: true for all surfaces
 };
 
-// Whether the scene has no light at all: no light sources, no glow, no ambient value, no goals.
+// Whether the scene has no light at all: no light sources, glow, ambient value or importance goals.
 bool isDark(const PreparedScene& prepared);
-// Whether rtrace warns that there are no light sources: there is none, and either no surface glows or there
-// is no indirect light (-ab), which alone carries the light of glow without reach. The ambient value makes no
-// difference.
+// Whether rtrace warns that the scene has no light sources. This is so if there are no sources, and either no
+// surface glows or there is no indirect light (-ab 0), which alone carries the light of glow without reach.
+// The ambient value does not matter.
 bool lacksSources(const PreparedScene& prepared);
 
 }  // namespace rsphere

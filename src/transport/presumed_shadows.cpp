@@ -6,16 +6,16 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCells = 20;  // cells along a side, twice as many for distant sources; as in RADIANCE
+constexpr int kCells = 20;  // cells along a side; twice this for distant sources; as in RADIANCE
 
-// If -1 to 1 is divided into `count` cells, the middle of the cell that contains x.
+// Divides the range from -1 to 1 into `count` cells. Returns the middle of the cell that contains x.
 double middle(double x, int count) {
   const double cell = std::clamp(std::floor((x + 1) * count / 2), 0., count - 1.);
   return 2 * (cell + .5) / count - 1;
 }
 
 int largestAxis(const V3d& v) {
-  int axis = 2;  // the later one if two are equal
+  int axis = 2;  // the last axis if two are equal
   for (int i = 1; i >= 0; --i)
     if (std::abs(v[i]) > std::abs(v[axis])) axis = i;
   return axis;
@@ -39,7 +39,7 @@ bool PresumedShadows::isOpaque(const Hit& hit) const {
   if (hit.path.count > 0 || hit.surface.index() >= scene_.outermost().size()) return false;
   const Surface& surface = scene_.surfaces[hit.surface];
   const Material* material = scene_.materialOf(surface);
-  // Mirrors and prisms block shadow rays, but rtrace does not assume so here.
+  // Mirrors and prisms also block shadow rays, but rtrace does not use them here.
   return isPlain(surface.shape) && material && imagesMadeBy(*material) == 0 &&
          tracer_.stopsShadows(hit.surface, hit.cosine > 0);
 }
@@ -48,8 +48,8 @@ bool PresumedShadows::isOpaque(const Hit& hit) const {
 bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, const V3d& direction,
                                    V3d& origin, V3d& onward) const {
   if (light.isDistant()) {
-    // The grid lies in the plane of the cube's side that faces the source most. It is extended beyond that
-    // side, so that every ray to the source that leaves the cube crosses it.
+    // The grid lies in the plane of the cube's face that faces the source most. It extends beyond that face,
+    // so that every ray from the cube to the source crosses it.
     const V3d& to = light.center;
     const int axis = largestAxis(to), a = (axis + 1) % 3, b = (axis + 2) % 3;
     const double along = std::abs(to[axis]);
@@ -67,7 +67,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
     onward = -to;
     return true;
   }
-  // The side of a cube of directions. If the source is plane, the cube is aligned with the source.
+  // A face of a cube of directions, which is aligned with the source if that is plane.
   V3d axes[3] = {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)};
   static_assert(kLightForms == 8, "Which axes has its cube of directions?");
   const auto* plane = light.as<PlaneLight>();
@@ -99,7 +99,8 @@ bool PresumedShadows::hide(LightId source, const V3d& point, const V3d& directio
     first = tracer_.nearest(origin + passed * onward, onward);
     if (first.surface == kNone) return false;
     if (first.surface != light.surface && isOpaque(first)) {
-      // A surface this near to the side of the cube is missed by rtrace, which searches on the other side.
+      // rtrace misses surfaces this near to the face of the cube, because it searches on the other side of
+      // the face.
       constexpr double kLost = 1;  // world units
       if (light.isDistant() && passed + first.distance <= kLost) return false;
       break;

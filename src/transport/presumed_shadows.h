@@ -1,16 +1,15 @@
 #pragma once
-// The occlusion that rtrace assumes without tracing a shadow ray. Before it traces a shadow ray, rtrace looks
-// up the ray's cell in a grid around the source:
-// - distant sources: 40 x 40 cells over the scene's cube as seen from the source,
-// - other sources: 20 x 20 cells on each side of a cube of directions around the source.
-// Each cell stores one surface: the first opaque one on the line that leaves the source through the middle of
-// the cell. If the straight line from the point to the source intersects that surface, rtrace takes the
-// source as hidden, even if the shadow ray would be refracted past the surface.
+// The occlusion that rtrace assumes without tracing a shadow ray. Before tracing one, rtrace looks up the
+// ray's cell in a grid around the source: - distant sources: 40 x 40 cells over the scene's cube as seen from
+// the source, - other sources: 20 x 20 cells on each face of a cube of directions around the source. A cell
+// stores one surface: the first opaque one on the line from the source through the middle of the cell. If
+// that surface intersects the straight line from the point to the source, rtrace treats the source as hidden,
+// even if the shadow ray would be refracted past the surface.
 //
-// Without this test, places behind thick slabs of dielectric are brighter than with rtrace. In a scene of
-// small boards on a slab they are brighter by .7% on average, and wrong at half of the places between the
-// straight and the refracted shadow of a board. The surfaces that rtrace adds to its cells when it finds
-// shadows are left out, because they depend on the order of its rays.
+// Without this rule, places behind thick dielectric slabs would be brighter than with rtrace. In a scene of
+// small boards on a slab, they would be .7% brighter on average, and wrong at half of the places between the
+// straight and the refracted shadow of a board. rtrace also adds surfaces to its cells when it finds shadows.
+// These are left out here, because they depend on the order of its rays.
 #include "light/sources.h"
 #include "trace/tracer.h"
 
@@ -22,8 +21,8 @@ class PresumedShadows {
   PresumedShadows(const Scene& scene, const Tracer& tracer, const LightSources& lights);
 
   // Whether rtrace assumes that the source is hidden from the point along a straight line. direction: unit,
-  // towards the source; distance: to its surface, or kFarAway. Costs one ray, or a few if surfaces that are
-  // not opaque lie in front.
+  // towards the source; distance: to the source's surface, or kFarAway. Takes one ray, or a few if surfaces
+  // that are not opaque lie in front.
   bool hide(LightId source, const V3d& point, const V3d& direction, double distance) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The regions at which directions from a point are aimed, each with the light that is expected from it.
+// The regions at which directions from a point are aimed, each with an estimate of the light from it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,11 +9,12 @@
 
 namespace rsphere {
 
-// The regions of one kind (rectangles, cones, lobes), by the numbers that their finder knows them by. One of
-// them is chosen in proportion to its light.
+// Regions of one kind (rectangles, cones, lobes), identified by numbers that their finder assigns. One of
+// them is selected with a probability proportional to the light expected from it.
 template <size_t kRoom>
 struct Proposals {
-  double mean = 0;  // radiance over the hemisphere that is expected from them, W/sr/m2, without occlusion
+  // Expected mean radiance over the hemisphere from these regions, W/sr/m2, without occlusion.
+  double mean = 0;
   size_t count = 0;
   V3d point{0, 0, 0};
   std::array<uint32_t, kRoom> number;
@@ -33,9 +34,9 @@ struct Proposals {
     point = from;
     mean = before(count) / kPi;
   }
-  // The sum of the contributions before region i. before(count): the sum of all.
+  // The sum of the contributions before region i; before(count) is the total.
   double before(size_t i) const { return i > 0 ? upTo[i - 1] : 0; }
-  // The one that is chosen by u, uniform in [0, 1). REQUIRES: count > 0.
+  // The index that u selects; u: uniform in [0, 1). REQUIRES: count > 0.
   size_t chosen(double u) const {
     const double due = u * upTo[count - 1];
     size_t i = 0;
@@ -44,10 +45,10 @@ struct Proposals {
   }
 };
 
-// The fraction of the directions of a mixture that is aimed at a finder's proposals. A finder has the members
+// A finder of regions with its fraction of a mixture of directions. A finder has the members
 //   Aim                          its proposals at a point
-//   sample(aim, u1, u2, u3)      one of the aimed directions (unit), for uniform u1, u2, u3 in [0, 1)
-//   density(aim, direction)      of these directions, per sr
+//   sample(aim, u1, u2, u3)      a direction towards a region (unit); u1, u2, u3: uniform in [0, 1)
+//   density(aim, direction)      the density of these directions, per sr
 template <class Finder>
 struct ShareOfMixture {
   const Finder* finder;

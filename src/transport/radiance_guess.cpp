@@ -13,12 +13,12 @@ namespace {
 
 using Tuning = tuning::RadianceGuess;
 
-// Cap on the number of sources that are guessed one by one; those that contribute most are kept, and the
-// others become ambient light.
+// Cap on the number of sources that are guessed separately. Those that contribute most are kept; the others
+// are included in the ambient light.
 const size_t kMostLights = tuning::Caps::kAimed / 2;
 
-// Irradiance from a triangle or parallelogram of radiance 1, clipped at the horizon, by Lambert's sum over
-// its sides. corners: relative to the place. normal: unit, of the place.
+// Irradiance from a triangle or parallelogram of radiance 1, clipped at the horizon, by Lambert's formula.
+// corners: relative to the place. normal: at the place, unit.
 template <size_t N>
 double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   std::array<V3d, 2 * N> kept;
@@ -38,7 +38,7 @@ double irradianceFrom(const std::array<V3d, N>& corners, const V3d& normal) {
   return std::abs(sum) / 2;
 }
 
-// The same from a fan of triangles around its first vertex, at a point.
+// The irradiance at a point from a polygon, divided into triangles around its first vertex.
 double irradianceFromFan(std::span<const V3d> v, const V3d& point, const V3d& normal) {
   double sum = 0;
   for (size_t i = 2; i < v.size(); ++i)
@@ -85,7 +85,7 @@ RadianceGuess::Place RadianceGuess::placeOf(const V3d& point, const V3d& directi
 }
 
 static_assert(kLightForms == 8, "Does it shine to one side only?");
-// Unoccluded irradiance from a source of radiance 1, sr.
+// Unoccluded irradiance from a source of radiance 1 (sr).
 double RadianceGuess::factor(LightId source, const Place& at) const {
   const LightSource& light = prepared_.lights().all()[source];
   if (const auto* cone = light.as<DistantLight>())
@@ -134,8 +134,8 @@ bool RadianceGuess::isSeen(const Place& at, LightId source) const {
                                    light.surface) != Shadow::blocked;
 }
 
-// The mean visibility of a light from the places. sent: brightness that each place would reflect if the light
-// were not occluded.
+// The mean visibility of a light from the places, weighted by sent. sent: brightness that each place would
+// reflect if the light were not occluded.
 double RadianceGuess::shareThatArrives(const Light& light, std::span<const double> sent,
                                        std::span<const Place> places, Random& random) const {
   double sum = 0;
@@ -188,9 +188,9 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     arriving += light.share * -sum;
   }
   local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
-  // The median instead of the mean, because a few directions hit something very bright by chance.
+  // Uses the median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
-  Color parts;  // the light of contributors; they share the median in this proportion
+  Color parts;  // light of each contributor; the median is divided among contributors in this proportion
   for (const Traced& t : traced) {
     const Place& at = t.place;
     if (!(brightness(at.reflectance) > 0)) continue;

@@ -1,19 +1,17 @@
 #pragma once
-// A cheap guess of the radiance along a ray, which costs only the search for its first hit: the diffuse
-// reflectance there, times the sum of
-// - the unoccluded direct light of each source, times the mean visibility of that source, and
-// - uniform ambient light.
-// The guess is a control variate: the estimate is the mean of traced minus guessed radiance, plus the mean of
-// many guesses. It reduces the variance where radiance is correlated with the guess, as between the bright
-// part of a partition beside a goal and the edge of a dark desktop. The paper names diffuse objects near
-// light sources as future work; the guess covers these and all other diffuse objects that are seen directly.
+// A cheap guess of the radiance along a ray; its cost is that of finding the first hit. The guess is the
+// diffuse reflectance at the hit, times the sum of - the unoccluded direct light of each source, times the
+// mean visibility of that source, and - uniform ambient light. It serves as a control variate: the estimate
+// is the mean of traced minus guessed radiance, plus the mean of many guesses. This reduces the variance
+// where the radiance is correlated with the guess, as at the bright part of a partition beside a goal, or at
+// the edge of a dark desktop. The paper mentions diffuse objects near light sources as future work. The guess
+// handles these and all other directly visible diffuse objects.
 //
 // Rejected alternatives:
-// - Dynamic directions to surfaces near sources: 20% more directions gained 7% there.
-// - Guesses of the highlights of sources in glossy surfaces: an office gained 3%.
-// - Directions of indirect rays that are distributed among neighbouring directions, against the noise of
-//   indirect rays: no gain.
-// - Several guessed rays for each indirect ray that is followed: no gain (tests/bench/mechanisms).
+// - Adaptive directions towards surfaces near sources: 20% more directions gained 7% there.
+// - Guesses of the highlights of sources in glossy surfaces: a gain of 3% in an office.
+// - Stratifying indirect rays across neighbouring directions to reduce their noise: no gain.
+// - Several guessed rays for each traced indirect ray: no gain (tests/bench/mechanisms).
 #include <span>
 #include <vector>
 
@@ -24,13 +22,13 @@ namespace rsphere {
 
 class RadianceGuess;
 
-// The guess as fitted to the view from a point. Its answers depend only on that fit and on the arguments.
-// Keeps a reference to the guess.
+// The guess, fitted to the view from a point. Its results depend only on the fit and on the arguments. Keeps
+// a reference to the RadianceGuess.
 class LocalGuess {
  public:
-  // The hit of a ray. If the reflectance is 0, the guess is 0.
+  // The hit of a ray. Where the reflectance is 0, the guess is 0.
   struct Place {
-    V3d point{0, 0, 0}, normal{0, 0, 1};  // world; unit, towards where the ray came from
+    V3d point{0, 0, 0}, normal{0, 0, 1};  // world; normal: unit, on the side from which the ray came
     Coefficient reflectance;
   };
 
@@ -42,7 +40,7 @@ class LocalGuess {
  private:
   friend class RadianceGuess;
   explicit LocalGuess(const RadianceGuess& guess) : guess_(&guess) {}
-  // Shadow rays decide the visibility of sources that light the place brightly.
+  // Uses the mean visibility of each source, or a shadow ray if the source lights the place brightly.
   Radiance direct(const Place& at) const;
 
   struct Light {
@@ -52,29 +50,29 @@ class LocalGuess {
   };
   const RadianceGuess* guess_;
   std::vector<Light> lights_;
-  Radiance ambient_;   // other light, as the radiance of a white surface
-  double bright_ = 0;  // shadow rays are traced if a source adds more brightness than this, W/sr/m2
+  Radiance ambient_;   // light from everything else, as the radiance of a white surface
+  double bright_ = 0;  // W/sr/m2; a source that adds more brightness than this is tested by a shadow ray
 };
 
 class RadianceGuess {
  public:
   using Place = LocalGuess::Place;
 
-  // unguessed: by surface (index in Scene::surfaces), whether its guess is to be 0. It is 0 anyway for all
-  // materials but plastic and metal. Keeps a reference to the prepared scene.
+  // unguessed: for each surface, whether its guess must be 0. It is always 0 for materials other than plastic
+  // and metal. Keeps a reference to the prepared scene.
   RadianceGuess(const PreparedScene& prepared, const ById<SurfaceId, bool>& unguessed);
 
-  // The hit of a traced direction, and the radiance from there.
+  // The hit of a traced direction, and the radiance that arrives from it.
   struct Traced {
     Place place;
     Radiance radiance;
   };
 
-  // The place of a hit that Tracer::nearest found from a point (world) in a direction.
+  // The place of a hit that Tracer::nearest() found from a point (world) in a direction.
   Place placeOf(const V3d& point, const V3d& direction, const Hit& hit) const;
 
-  // Fits the guess to the view from a point (world). glances: evenly spread directions. The estimate stays
-  // unbiased as long as it contains neither the glances nor the traced directions.
+  // Fits the guess to the view from a point (world). glances: evenly distributed directions. To stay
+  // unbiased, the estimate must use neither the glances nor the traced directions again.
   LocalGuess fit(const V3d& point, std::span<const V3d> glances, std::span<const Traced> traced,
                  uint64_t seed) const;
 
@@ -89,9 +87,9 @@ class RadianceGuess {
                           Random& random) const;
 
   const PreparedScene& prepared_;
-  std::vector<Coefficient> reflectance_;  // diffuse, by number of finish
-  ById<SurfaceId, bool> unguessed_;       // surfaces that are black here
-  std::vector<Light> lights_;             // share not set
+  std::vector<Coefficient> reflectance_;  // diffuse reflectance; index: number of the finish
+  ById<SurfaceId, bool> unguessed_;       // surfaces whose guess is 0
+  std::vector<Light> lights_;             // `share` is not set
 };
 
 }  // namespace rsphere

@@ -12,8 +12,8 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as positions in MistSources::all(). Unused
-// elements are neither set nor copied.
+// Light sources whose light is scattered into a ray, as indices in MistSources::all(). Unused elements are
+// neither initialized nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
   uint8_t count = 0;
@@ -28,14 +28,14 @@ struct ScatteringSources {
   }
 
   bool contains(uint16_t s) const { return std::find(begin(), end(), s) != end(); }
-  // Returns false if there is no room for another.
+  // Returns false if the limit is reached.
   bool add(uint16_t s) {
     if (contains(s)) return true;
     if (count == kMost) return false;
     source[count++] = s;
     return true;
   }
-  // Returns whether it was there.
+  // Returns whether it was present.
   bool remove(uint16_t s) {
     const auto last = source.begin() + count;
     const auto kept = std::remove(source.begin(), last, s);
@@ -48,77 +48,78 @@ struct ScatteringSources {
 
 struct RayEnd;
 
-// What fills the space that a ray passes through.
+// The medium that a ray passes through.
 struct RaySpace {
   Medium medium{};
-  ScatteringSources scatterers;  // of light that the medium scatters into the ray
+  ScatteringSources scatterers;  // sources of the light that the medium scatters into the ray
   const RayEnd* mist = nullptr;  // the ancestor that entered the innermost mist around the ray; null: none
 };
 
-// The question that a ray asks: the radiance that arrives at a point from a direction.
+// A query for the radiance that arrives at a point from a direction.
 struct RayQuery {
   V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; direction unit
-  double farthest = 0;        // the ray ends there even if it hits nothing (-ld, world units); 0: no limit
-  SurfaceId from = kNone;     // surface that it leaves
+  double farthest = 0;     // the ray ends at this distance even without a hit (-ld, world units); 0: no limit
+  SurfaceId from = kNone;  // surface on which it starts
   LightId aimedAt = kNone;    // light source that a shadow ray is aimed at
-  bool unobstructed = false;  // for shadow rays: surfaces between the origin and the source are ignored
+  bool unobstructed = false;  // of shadow rays: surfaces between the origin and the source are ignored
 };
 
-// Whether only surfaces that paths from both ends know (PlainSurfaces) have led to a ray; if so, whether
-// those paths bring light that arrives at the last diffuse surface by a reflection.
+// Whether a path has met only surfaces that bidirectional estimation knows (PlainSurfaces). If so, whether
+// paths from both ends estimate the reflected light that arrives at the last diffuse surface.
 enum class Known : uint8_t {
   no,
-  joined,   // they bring it: light vertices there are joined to the eye, or to the surface before
-  unjoined  // they do not: the surface is seen in a reflection, through which vertices are not joined
+  joined,   // they do: light vertices there are joined to the eye, or to the previous surface
+  unjoined  // they do not: the surface is seen in a reflection, and vertices are not joined through it
 };
 
-// What a ray inherits from its ancestors. It does not change once the ray is followed.
+// Data that a ray inherits from its ancestors. They do not change after the ray is followed.
 struct PathContext {
   RayKind kind = kPrimary;
   unsigned kinds = kPrimary;  // its own kind and those of its ancestors
-  double weight = 1;          // largest share that its radiance can have in the answer
+  double weight = 1;          // upper bound on the fraction of the answer that its radiance may contribute
   int level = 0;              // number of reflections that led to it
   int depth = 0;              // number of its ancestors
   int ambientLevel = 0;       // number of indirect bounces that led to it
   double pathLength = 0;      // total length of its ancestors
   double shadowLength = 0;    // total length of those ancestors that are shadow rays
-  SurfaceId mirror = kNone;   // the flat surface that mirrored the primary ray into this one, if nothing
-                              // else deflected it
+  SurfaceId mirror = kNone;   // if only a flat mirror has deflected the primary ray: that mirror
   Known known = Known::no;
-  const RayEnd* parent = nullptr;  // null: a primary ray, or one that does not depend on earlier rays
+  const RayEnd* parent = nullptr;  // null: a primary ray, or a ray that does not depend on earlier ones
   RaySpace space{};
-  uint64_t clips = 0;           // Surface::clip of the surfaces that are cut away for this ray
-  Coefficient contribution{1};  // share of its radiance, at its origin, in that of the primary ray
+  uint64_t clips = 0;           // bits (Surface::clip) of the surfaces that antimatter cuts away for this ray
+  Coefficient contribution{1};  // factor on its radiance, at its origin, in that of the primary ray
 };
 
-// The hit of a ray. Shading turns the normal, and the values that depend on it, towards the ray, and adds
+// The hit of a ray. Shading turns the normal and the values that depend on it towards the ray, and applies
 // textures and patterns.
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  // The point of the hit, or the end of the ray (RayQuery::farthest). The origin if nothing or a distant
-  // source is hit.
+  // The hit, or the end of a ray with a limit (RayQuery::farthest). If the ray hits nothing, or a distant
+  // source: its origin.
   V3d point{0, 0, 0};
   double u = 0, v = 0;
-  PlacementPath path;       // the placements of the surface's modifiers in the world
-  V3d normal{0, 0, 0};      // shading turns it towards the ray's origin
-  double cosine = 1;        // -normal . direction; negative for a hit from behind until it is turned round
-  bool fromBehind = false;  // normal, cosine and perturbation were flipped because of a hit from behind
-  bool insideOut = false;   // they were flipped at a cut by antimatter, whose front is the inside
-  // The perturbation of the normal. It begins with that of a smooth mesh. Apart from turning it round, only
-  // modifiers change it. The same is true of the pattern, which meters (-i) ignore (SurfaceShading).
+  PlacementPath path;   // the instances that contain the surface
+  V3d normal{0, 0, 0};  // shading turns it towards the ray's origin
+  double cosine = 1;    // -normal . direction; negative for a hit from behind, until shading flips it
+  // Normal, cosine and perturbation were flipped, because the surface was hit from behind.
+  bool fromBehind = false;
+  bool insideOut = false;  // they were flipped at a surface cut by antimatter, whose front is the inside
+  // The perturbation of the normal. Its first value is that of a smooth mesh. Afterwards only modifiers
+  // change it, apart from flips. Only modifiers change the pattern, which irradiance (-i) ignores
+  // (SurfaceShading).
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
 };
 
-// The answer: radiance (W/sr/m2) and lengths (world units).
+// The result of a ray: radiance (W/sr/m2) and lengths (world units).
 struct RayResult {
-  Radiance value;                                                 // all that returns along the ray
-  Radiance mirrored;                                              // the part of it that was mirrored
-  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // of the path to the object seen
+  Radiance value;                                                 // total radiance along the ray
+  Radiance mirrored;                                              // the mirrored part of value
+  double mirroredLength = kFarAway, unmirroredLength = kFarAway;  // length of the path to the visible object
 };
 
-// The end of a ray, where it is shaded. Rays that begin there refer to it, so that it must outlive them.
+// The end of a ray, where it is shaded. It must outlive rays that start there, because they refer to it.
 struct RayEnd {
   RayEnd(const RayQuery& asked, const PathContext& inherited)
       : ray(asked), context(inherited), clipsBeyond(inherited.clips) {}
@@ -134,19 +135,19 @@ struct RayEnd {
   const RayQuery& ray;
   const PathContext& context;
   SurfaceHit hit;
-  uint64_t clipsBeyond;  // PathContext::clips of a ray that continues beyond the surface
-  // Set if the surface that was hit implies that the ray began in another space than the inherited one.
+  uint64_t clipsBeyond;  // PathContext::clips for rays that continue beyond the surface
+  // Set if the surface that was hit shows that the ray started in another medium than the inherited one.
   std::optional<RaySpace> beganIn;
-  Known known = Known::no;  // of the rays that begin here; set when the surface is shaded
+  Known known = Known::no;  // for the rays that start here; set when the surface is shaded
 
   const RaySpace& space() const { return beganIn ? *beganIn : context.space; }
   const Medium& medium() const { return space().medium; }
   RaySpace& changedSpace() { return beganIn ? *beganIn : beganIn.emplace(context.space); }
 };
 
-// A ray that continues a path, ready to be followed.
+// A ray that continues a path and has not been followed yet.
 struct NextRay {
-  // Sets what rays of all kinds inherit. The direction is still to be set.
+  // Sets the data that rays of all kinds inherit. The caller sets the direction.
   NextRay(const RayEnd& parent, RayKind kind, const Coefficient& coefficient);
 
   RayQuery query;

@@ -7,10 +7,10 @@
 
 namespace rsphere {
 
-// The length that rtrace writes where a ray hits nothing or a distant source.
+// The length that rtrace writes if a ray hits nothing or a distant source.
 inline constexpr double kInfiniteLength = 1e10;
 
-// The name of the surface that a ray hit. It is decoded when it is written.
+// The name of the surface that a ray hit. It is only decoded when it is written.
 class SurfaceName {
  public:
   SurfaceName() = default;
@@ -29,13 +29,13 @@ class SurfaceName {
   std::string_view text_ = "*";
 };
 
-// The quantities of one ray that the -o letters of ray mode and of -Sd report. A field may keep its default
-// if its letter was not chosen. Names are "*" if nothing was hit; they must live as long as the scene. Under
-// -i and -I the radiances are those of a diffuse surface of reflectance pi, whose values are those of its
-// irradiance (W/m2).
+// The quantities of a ray that the letters of -o (in ray mode) and of -Sd report. A quantity whose letter is
+// not selected may have its default value. Names are "*" if nothing was hit; they refer to the scene. With -i
+// and -I, radiances are those of a diffuse surface of reflectance pi, which are equal to its irradiance
+// (W/m2).
 struct RayAnswer {
   V3d origin{0, 0, 0}, direction{0, 0, 0};          // o d
-  Radiance value;                                   // v  under -i -I the value of the irradiance
+  Radiance value;                                   // v  with -i and -I equal to the irradiance
   Radiance mirroredContribution;                    // r
   Radiance unmirroredContribution;                  // x
   double mirroredLength = kInfiniteLength;          // R
@@ -45,12 +45,12 @@ struct RayAnswer {
   double u = 0, v = 0;                              // c  local surface coordinates
   V3d point{0, 0, 0};                               // p
   V3d normal{0, 0, 0};                              // n  perturbed, facing the ray
-  V3d unperturbedNormal{0, 0, 0};                   // N  as the surface has it
+  V3d unperturbedNormal{0, 0, 0};                   // N  without textures, not turned
   SurfaceName surface;                              // s
   std::string_view modifier = "*", material = "*";  // m M
   double rayWeight = 1;                             // w
-  Coefficient contribution{1};  // W  share of its value in that of the primary ray; times value: V
-  double solidAngle = 0;        // w under -Sd, sr
+  Coefficient contribution{1};  // W  factor on its value in that of the primary ray; times value: V
+  double solidAngle = 0;        // w with -Sd, sr
 };
 
 }  // namespace rsphere

@@ -1,6 +1,6 @@
 #pragma once
-// The path tracer's recursion as an interface for its parts: they choose directions that light may come from,
-// and request the radiance along them.
+// The recursion of the path tracer, as an interface for its parts. These choose directions from which light
+// may arrive, and request the radiance along them.
 #include "transport/ray_functions.h"
 
 namespace rsphere {
@@ -9,7 +9,7 @@ struct PathSettings;
 struct PathState;
 class RayFollower;
 
-// A path within another one: it begins with a new state, and does not depend on the path that requested it.
+// A path within another path. It has a new state, and does not depend on the path that requested it.
 struct InnerPath {
   PathState& state;
   const PathSettings& settings;
@@ -18,27 +18,29 @@ struct InnerPath {
 
 class RayFollower {
  public:
-  // The radiance along a ray, at its origin. It is found where the ray ends, and attenuated on the way.
+  // The radiance that arrives at a ray's origin. It is computed at the ray's end, and attenuated along the
+  // ray.
   RayResult follow(const RayQuery& ray, const PathContext& context) {
     RayEnd end(ray, context);
     return follow(end);
   }
-  // The same; sets the hit of the ray's end too.
+  // The same; also sets the hit of the ray's end.
   virtual RayResult follow(RayEnd& end) = 0;
 
-  // The radiance that arrives from behind the surface that a ray hit, as if the surface were not there.
+  // The radiance that arrives at a surface from behind, as if the surface were not there.
   RayResult pass(const RayEnd& end) {
     NextRay next = straightOn(end);
     return passOn(next, end);
   }
-  // The same along a given continuation of the ray, which may enter another medium.
+  // The same along a given continuation of the ray, which may pass through another medium.
   virtual RayResult passOn(NextRay& next, const RayEnd& end) = 0;
 
-  // Shades the end of a ray that hit a surface with a chain of modifiers (index in Scene::modifiers). False,
-  // with nothing done, if the chain has no material. result: that of the ray, with nothing added yet.
+  // Shades the end of a ray that hit a surface with this chain of modifiers. False, without any effect, if
+  // the chain has no material. result: the ray's result, initially empty.
   virtual bool shade(RayEnd& end, ModifierId modifier, RayResult& result) = 0;
 
-  // Begins a path for a gather. It is valid until the next one begins. normal: of the gather's site (unit).
+  // Begins the path of a gather. It remains valid until the next one begins. normal: at the gather's site
+  // (unit).
   virtual InnerPath beginGather(uint64_t seed, const V3d& normal) = 0;
 
  protected:

@@ -1,5 +1,5 @@
 #pragma once
-// Constants and small functions of rays that the parts of PathTracer share.
+// Constants and small functions for rays that the parts of PathTracer share.
 #include <cmath>
 
 #include "base/constants.h"
@@ -8,24 +8,24 @@
 
 namespace rsphere {
 
-// The mean reflectance of surfaces, the usual one of rooms and the same value as in RADIANCE. Where light is
-// interpolated, it is the weight of an indirect ray relative to its parent, instead of the small share of a
-// single direction: the weight limit then ends paths after some bounces and does not depend on the number of
+// The mean reflectance of surfaces, a usual value for rooms; RADIANCE uses the same one. With interpolated
+// light, it is the weight of each indirect ray relative to its parent, instead of the small weight of one
+// among many directions. The weight limit then ends paths after some bounces, independently of the number of
 // directions.
 inline constexpr double kMeanReflectance = .5;
 
-// A diffuse material of reflectance pi. Its radiance is pi times the mean incident radiance, which is the
+// A diffuse material of reflectance pi. Its radiance, pi times the mean incident radiance, is equal to the
 // irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};
 
-// The apparent distance of the object seen along the ray: that of the mirrored image if it gives more than
-// half of the light.
+// The apparent distance of the object seen along a ray: that of a mirrored object if it contributes more than
+// half of the radiance.
 inline double apparentLength(const RayResult& seen) {
   return brightness(seen.mirrored) > .5 * brightness(seen.value) ? seen.mirroredLength
                                                                  : seen.unmirroredLength;
 }
 
-// Whether the extinction is large enough to matter over a distance of kFarAway.
+// Whether the extinction has any effect within a distance of kFarAway.
 inline bool isMedium(const Color& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
 // The transmittance of a medium. extinction: per unit length.
@@ -34,8 +34,8 @@ inline Coefficient passing(const Color& extinction, double length) {
   return isMedium(extinction) ? transmittanceOf(extinction, length) : Coefficient(1);
 }
 
-// The transmittance of the medium along a ray. Shadow rays are attenuated by absorption alone: it is assumed
-// that in-scattering replaces the light that is scattered out of them.
+// The transmittance of the medium along a ray. Shadow rays are only attenuated by absorption: in-scattering
+// is assumed to compensate for the light scattered out of them.
 inline Coefficient passedBy(const RayEnd& end) {
   const Medium& medium = end.medium();
   if (!isMedium(medium.extinction)) return Coefficient(1);
@@ -63,7 +63,7 @@ inline NextRay::NextRay(const RayEnd& parent, RayKind kind, const Coefficient& o
   if (isMedium(parent.medium().extinction)) context.contribution *= passedBy(parent);
 }
 
-// A ray that continues another straight on, with the same weight.
+// A ray that continues another one in the same direction, with the same weight.
 inline NextRay straightOn(const RayEnd& end) {
   NextRay next(end, kTransmitted, Coefficient(1));
   next.query.direction = end.ray.direction;
@@ -80,14 +80,14 @@ inline void flip(SurfaceHit& hit) {
   hit.perturbation = -hit.perturbation;
 }
 
-// Turns a hit from behind into a hit from the front.
+// If the surface was hit from behind, flips the hit so that its front faces the ray.
 inline void turnRound(SurfaceHit& hit) {
   if (!(hit.cosine < 0)) return;
   flip(hit);
   hit.fromBehind = !hit.fromBehind;
 }
 
-// Whether the ray hit the front of the surface as the scene defines it, regardless of later flips.
+// Whether the ray hit the front of the surface as the scene defines it, regardless of flips.
 inline bool hitFront(const SurfaceHit& hit) { return (hit.cosine > 0) != (hit.fromBehind != hit.insideOut); }
 
 }  // namespace rsphere

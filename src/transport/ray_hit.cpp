@@ -5,15 +5,15 @@
 namespace rsphere {
 namespace {
 
-// Fused multiply-add rounds only once. On a plane at coordinate 0, the sign of the rounding error decides on
-// which side of the plane a point lies, and function files that call floor() depend on it.
+// Fused multiply-add rounds only once. On a plane at coordinate 0, the sign of the rounding error determines
+// on which side of the plane a point lies, which matters to function files that call floor().
 V3d along(const V3d& origin, double distance, const V3d& direction) {
   return V3d(std::fma(distance, direction.x, origin.x), std::fma(distance, direction.y, origin.y),
              std::fma(distance, direction.z, origin.z));
 }
 
-// The distant source in the direction of a ray, or kNone. The first one that is neither a glow nor an illum
-// that transmits light hides the others; if there is none, it is the first glow.
+// The distant source in the direction of a ray, or kNone. It is the first source that is neither a glow nor
+// an illum that transmits light, since it hides all others; if there is none, it is the first glow.
 SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsigned kinds) {
   const Scene& scene = prepared.scene();
   const auto sees = [&](SurfaceId surface) {
@@ -38,11 +38,11 @@ SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsi
         return s;
     }
   }
-  // The illum already includes the light behind it. An indirect ray through it would add that light twice.
+  // The illum includes the light from behind it. An indirect ray through it would count that light twice.
   return passedIllum && (kinds & (kAmbient | kSpecular)) ? SurfaceId() : glow;
 }
 
-// Sets the hit of a shadow ray on the source that it is aimed at. All other surfaces are ignored.
+// Sets the hit of a shadow ray on the source at which it is aimed, ignoring all other surfaces.
 void setTarget(const PreparedScene& prepared, RayEnd& end) {
   const RayQuery& ray = end.ray;
   SurfaceHit& hit = end.hit;

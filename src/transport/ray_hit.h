@@ -4,9 +4,9 @@
 
 namespace rsphere {
 
-// Sets the hit of a ray, which has none yet: the surface that the tracer finds (Tracer::nearest), otherwise
-// the distant source in its direction. An unobstructed shadow ray always hits the source that it is aimed at.
-// Returns the tracer's hit.
+// Determines the hit of a ray: the surface that the tracer finds (Tracer::nearest), otherwise the distant
+// source in its direction. An unobstructed shadow ray always hits the source at which it is aimed. Returns
+// the tracer's hit. REQUIRES that the ray has no hit yet.
 Hit findHit(const PreparedScene& prepared, RayEnd& end);
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// The end of a ray as materials and function files see it.
+// Converts the end of a ray to the data that materials and function files need.
 #include <cmath>
 
 #include "shade/material_hit.h"
@@ -8,7 +8,7 @@
 
 namespace rsphere {
 
-// REQUIRES that the ray hit a surface, except for interactionOf() and pointOf().
+// REQUIRES, except for interactionOf() and pointOf(), that the ray hit a surface.
 inline Arrival arrivalOf(const PreparedScene& t, const RayEnd& end) {
   Arrival a;
   a.kinds = end.context.kinds;
@@ -25,7 +25,7 @@ inline Arrival arrivalOf(const PreparedScene& t, const RayEnd& end) {
   return a;
 }
 
-// With the patterns and textures that were applied to the ray so far.
+// Includes the patterns and textures that have been applied so far.
 inline Interaction interactionOf(const Scene& scene, const RayEnd& end) {
   const SurfaceHit& hit = end.hit;
   Interaction at;

@@ -8,16 +8,16 @@
 namespace rsphere {
 namespace {
 
-// The weight below which descendants are followed by Russian roulette. It grows faster than the number of
-// descendants, which is therefore bounded even where children have more weight than their parents. The
-// ancestors of the new ray do not count, so that a path without branches goes on.
+// The weight below which descendants are subject to Russian roulette. It grows faster than the number of
+// descendants, which bounds that number even if children have a larger weight than their parents. The
+// ancestors of the new ray are not counted, so that a path without branches continues.
 double leastWeight(const Descendants& descendants, const PathContext& child) {
   const int others = descendants.rays - (child.depth - descendants.depth);
   const double tooMany = (others - descendants.most) / descendants.most;
   return tooMany > 0 ? descendants.weight * tooMany * tooMany : 0;
 }
 
-// Adds a ray to the descendants unless Russian roulette ends it.
+// Adds a ray to the descendants, unless Russian roulette ends it.
 bool addDescendant(PathState& state, NextRay& next) {
   if (const double least = leastWeight(state.descendants, next.context); least > 0)
     if (!survives(state.random, least, next)) return false;
@@ -25,7 +25,7 @@ bool addDescendant(PathState& state, NextRay& next) {
   return true;
 }
 
-// Whether a ray goes on in spite of the limits of reflections and weight (-lr, -lw).
+// Whether a ray may continue according to the limits on reflections and weight (-lr, -lw).
 bool isWithinLimits(const RayOptions& o, Random& random, NextRay& next) {
   const PathContext& ray = next.context;
   if (o.reflectionLimit > 0) return ray.weight >= o.weightLimit && ray.level <= o.reflectionLimit;
@@ -35,7 +35,7 @@ bool isWithinLimits(const RayOptions& o, Random& random, NextRay& next) {
   return survives(random, o.weightLimit, next);
 }
 
-// Sets what depends on whether the ray is reflected or goes on beyond the surface.
+// Sets the data that differ between a reflected ray and one that continues beyond the surface.
 void turnOrGoOn(const Scene& scene, NextRay& next) {
   const RayEnd& parent = *next.context.parent;
   const RayKind kind = next.context.kind;
@@ -61,7 +61,7 @@ bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state)
   ray.contribution *= next.coefficient;
   ray.weight = parent.context.weight * std::min(1., maxChannel(next.coefficient));
   const double depth = minChannel(parent.medium().extinction) * parent.hit.length;
-  // RADIANCE's own limit: a thinner medium does not reduce the weight.
+  // RADIANCE has the same limit: a thinner medium does not reduce the weight.
   if (depth > .1) ray.weight *= std::exp(-depth);
   if (!(ray.weight > 0)) return false;
   if (ray.kinds & kShadow) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// How far paths are followed and into how many rays they split: -lr, -lw, -ss, and the limit for gathers.
+// Limits how far paths are followed and how often they split: -lr, -lw, -ss, and the limits for gathers.
 #include <algorithm>
 
 #include "transport/path_state.h"
@@ -9,15 +9,15 @@
 
 namespace rsphere {
 
-// Whether a path goes on along a ray, which has just begun at the end of its parent. The path ends beyond -lr
-// reflections, and below the weight limit (-lw): always if -lr is positive, otherwise by Russian roulette.
-// Roulette also ends paths if their root has too many descendants; the ray is added to them
-// (state.descendants). NextRay::coefficient is increased if the path survived roulette, so that the mean
-// stays unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
+// Whether a path continues along a new ray at the end of its parent. Paths end after -lr reflections. Below
+// the weight limit (-lw), they end always if -lr is positive, and by Russian roulette otherwise. Roulette
+// also ends paths whose root has too many descendants; a ray that continues is added to these
+// (state.descendants). After surviving roulette, NextRay::coefficient is increased, so that the result stays
+// unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
 bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state);
 
-// Russian roulette: whether the path of a ray goes on. If so, its weight is at least `least`, and its
-// coefficient makes up for the paths that do not go on.
+// Russian roulette: whether the path continues along a ray. If so, the ray's weight becomes at least `least`,
+// and its coefficient is increased to compensate for the paths that end.
 inline bool survives(Random& random, double least, NextRay& next) {
   const double probability = next.context.weight / least;
   if (probability >= 1) return true;
@@ -28,33 +28,32 @@ inline bool survives(Random& random, double least, NextRay& next) {
   return true;
 }
 
-// Whether a patch of the coarse solution is used for the indirect light where a ray hits. Each ray of a
-// gather may use some patches; Russian roulette allows further ones in proportion to what they may
-// contribute. coefficient: the factor of the mean radiance over the hemisphere in the ray's radiance. It is
-// increased if the patch survived roulette.
+// Whether the indirect light at the hit of a ray is taken from a patch of the coarse solution. Each ray of a
+// gather may use some patches. For further ones, Russian roulette decides with a probability proportional to
+// their largest possible contribution. coefficient: factor on the mean radiance over the hemisphere in the
+// ray's radiance; increased after surviving roulette.
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
-// Begins to count the descendants of a primary ray, if their number is limited (TracingMode::boundsWork).
-// rays: -ad + -as.
+// Starts counting the descendants of a primary ray, if their number is limited (TracingMode::boundsWork).
+// rays: -ad plus -as.
 inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
 }
 
-// Begins to count the descendants of a ray of PathTracer::glimpse(). level: its ambientLevel.
+// Starts counting the descendants of a ray of PathTracer::glimpse(). level: its ambientLevel.
 inline Descendants descendantsOfGlimpse(int level) {
   return {tuning::RayLimits::kMostDescendants, 1, 0, level, 0};
 }
 
-// Begins to count the descendants of all rays of a patch of the coarse solution together. depth: of the
-// imagined ray at whose end they begin.
+// Starts counting the descendants of all rays of a patch of the coarse solution together. depth: of the
+// fictitious ray at whose end they start.
 inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// Begins to count the descendants of a gather's ray, if light is interpolated. Two kinds of rays are counted
-// with an earlier ray instead: if the descendants of the primary ray are limited, all rays count as its
-// descendants; and the rays of a patch count together, except that each has a count of its own of the patches
-// that it uses.
+// Starts counting the descendants of a gather's ray, if light is interpolated. There are two exceptions: - If
+// the descendants of the primary ray are limited, the existing count for the primary ray continues. - For a
+// patch, the existing count for all its rays continues; only the used patches are counted for each ray.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;
@@ -62,15 +61,15 @@ inline void countDescendants(const PathSettings& settings, PathState& state, con
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 
-// Whether -lr allows reflections at the end of a ray. Rays that Russian roulette ends do not count: those
-// that survive make up for their light.
+// Whether -lr allows further reflections at the end of a ray. Russian roulette is ignored, because surviving
+// rays compensate for those that it ends.
 inline bool goesOn(const PreparedScene& prepared, const PathContext& ray) {
   const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);
 }
 
-// Whether the ray is one of the many rays of a gather for interpolation, or descends from one. Noise averages
-// out over these rays, so that each takes one sample where a primary ray takes several.
+// Whether the ray belongs to a gather for interpolation, or descends from one of its rays. Noise averages out
+// over these many rays, so that each takes one sample where a primary ray takes several.
 inline bool isOfGather(const PathSettings& settings, const PathContext& ray) {
   return settings.caches.field && ray.ambientLevel > 0;
 }

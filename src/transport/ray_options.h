@@ -10,21 +10,22 @@
 
 namespace rsphere {
 
-// The options that steer the path of a ray. They are rtrace's, and rtrace(1) explains them. The defaults here
-// are rtrace's too; sphere mode has others (modeDefaults() in cli/option_table.h).
+// The options of rtrace that control paths; rtrace(1) explains them. The defaults are those of rtrace. Sphere
+// mode has others (modeDefaults() in cli/option_table.h).
 struct RayOptions {
-  // -cs, -cw  The division of the spectrum in a spectral run; null: three channels.
+  // -cs, -cw  The bands of a spectral run; null: three channels.
   const SpectralSampling* sampling = nullptr;
-  WavelengthLimits wavelengths;  // -cw  In three channels too, spectra are 0 beyond these.
+  WavelengthLimits wavelengths;  // -cw  Also with three channels, spectra are 0 outside these limits.
   // direct light
-  double directThreshold = .03;      // -dt  share of the direct light that may be left untested for shadows
-  double directCertainty = .75;      // -dc
-  double directJitter = 0;           // -dj  0 to 1
-  double sourceSubstructuring = .2;  // -ds  largest size/distance of a part of a source; 0: not divided
-  int directRelays = 2;              // -dr
-  int chosenSources = 0;             // -Ss  sources tested at a surface, drawn at random; 0: all of them
-  int directPretest = 512;           // -dp
-  bool sourcesVisible = true;  // -dv  whether a directly seen source shows its radiance instead of black
+  double directThreshold = .03;  // -dt  fraction of the direct light that may remain untested for shadows
+  double directCertainty = .75;  // -dc
+  double directJitter = 0;       // -dj  0 to 1
+  // -ds  largest ratio of the size of a source's part to its distance; 0: not divided.
+  double sourceSubstructuring = .2;
+  int directRelays = 2;        // -dr
+  int chosenSources = 0;       // -Ss  number of random sources sampled at a surface; 0: all
+  int directPretest = 512;     // -dp
+  bool sourcesVisible = true;  // -dv  whether sources show their radiance to primary rays, instead of black
   // specular reflection
   double specularSampling = 1;     // -ss
   double specularThreshold = .15;  // -st
@@ -34,44 +35,45 @@ struct RayOptions {
   int ambientResolution = 256;    // -ar
   int ambientDivisions = 1024;    // -ad
   int ambientSuperSamples = 512;  // -as
-  int firstRays = 1;              // -Sh  0: chosen by -ab
+  int firstRays = 1;              // -Sh  0: depends on -ab
   Radiance ambientValue;          // -av
   int ambientWeight = 0;          // -aw
-  // The number of rays of patches of the coarse solution is computed as if -ad + -as were at least this, and
-  // patches serve the first diffuse surface too (FirstBounce::fromPatches). Not an option: sphere mode sets
-  // it, because each of its directions has a small -ad and all share one solution. 0: no minimum, and patches
-  // do not serve the first surface.
+  // The number of rays of a patch of the coarse solution is computed as if -ad + -as were at least this. If
+  // it is not 0, patches are also used at the first diffuse surface (FirstBounce::fromPatches). Not an
+  // option: sphere mode sets it, because each of its directions has a small -ad, and all share one coarse
+  // solution.
   int leastForPatches = 0;
-  int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: pictures set it
+  int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: set for pictures
   std::string ambientFile;  // -af
-  double fieldMemory = 0;   // -Sm  MB; 0: no bound
-  std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; one or both are empty
+  double fieldMemory = 0;   // -Sm  MB; 0: no limit
+  std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; at least one is empty
   // limits
-  int reflectionLimit = -10;  // -lr  limit: absolute value, 0: none; not positive: Russian roulette below -lw
+  // -lr  absolute value: limit, 0: none; if not positive: Russian roulette below -lw.
+  int reflectionLimit = -10;
   double weightLimit = 1e-4;  // -lw
   // medium
   Color mediumExtinction{0, 0, 0};  // -me  per unit length
   Color mediumAlbedo{0, 0, 0};      // -ma
   double mediumEccentricity = 0;    // -mg
-  double mediumSampling = 0;        // -ms  length (world units) for each sample; 0: one sample a ray
+  double mediumSampling = 0;        // -ms  length (world units) for each sample; 0: one sample per ray
   // others
   std::vector<SharedDefinitions> definitions;  // -e -f, in their order
   bool backFacesVisible = true;                // -bv
   // random numbers
-  bool uncorrelated = true;  // -u  changes nothing by itself; see AnswerOptions::numberedRays
+  bool uncorrelated = true;  // -u  has no effect here; see AnswerOptions::numberedRays
   uint64_t rotation = 0;     // -Sr
 
-  // The medium of the space outside of mist and dielectrics (-me -ma -mg).
+  // The medium outside of mist and dielectrics (-me -ma -mg).
   Medium medium() const { return {mediumExtinction, mediumAlbedo, mediumEccentricity}; }
-  // Whether there is indirect light at all (-ab, -ad).
+  // Whether there is any indirect light (-ab, -ad).
   bool hasIndirectLight() const { return ambientBounces > 0 && ambientDivisions > 0; }
 };
 
-// Whether the answer for a ray is radiance or irradiance, and of which surface.
+// Whether the result for a ray is radiance or irradiance, and where.
 enum class IrradianceAt : uint8_t {
-  none,     // radiance
-  surface,  // -i  irradiance of the surface that it hits
-  point     // -I  irradiance of a sensor at its origin
+  none,     // radiance along the ray
+  surface,  // -i  irradiance on the surface that the ray hits
+  point     // -I  irradiance on a sensor at the ray's origin
 };
 
 }  // namespace rsphere

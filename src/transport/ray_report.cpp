@@ -25,7 +25,7 @@ RayAnswer answerOf(const Scene& scene, const TracedRay& ray) {
   a.unperturbedNormal = ray.fromBehind != ray.insideOut ? -ray.normal : ray.normal;
   a.normal = ray.normal;
   if (ray.perturbation.length2() > 0) {
-    // The normal of a surface without material has not been turned towards the ray.
+    // If the surface has no material, its normal has not been turned towards the ray.
     const double side = ray.cosine < 0 ? -1 : 1;
     Interaction at;
     at.direction = ray.direction;

@@ -1,5 +1,5 @@
 #pragma once
-// The quantities of a ray that rtrace's output letters report.
+// Computes the quantities of a ray that rtrace's output letters report.
 #include <string_view>
 
 #include "transport/path_observer.h"
@@ -11,11 +11,11 @@ namespace rsphere {
 // The answer for a ray that was traced.
 RayAnswer answerOf(const Scene& scene, const TracedRay& ray);
 
-// The answer for a ray that an observer was shown (RayObserver): answerOf() with the ray's weight and its
-// contribution, which is zero for a shadow ray that receives no light from its source.
+// The answer for a ray that was passed to an observer (RayObserver): answerOf() with the ray's weight and
+// contribution. The contribution is 0 for a shadow ray that receives no light from its source.
 RayAnswer branchAnswer(const PreparedScene& prepared, const RayEnd& end, const RayResult& result);
 
-// Whether the letters need a ray's value, and not only its hit.
+// Whether the letters require a ray's radiance, or only its hit.
 bool needsValue(std::string_view letters);
 
 }  // namespace rsphere

@@ -6,8 +6,8 @@
 namespace rsphere {
 namespace {
 
-// Cells along the longest side of the scene. More cells take more memory (these take half a megabyte); fewer
-// take more time at points where no object matters.
+// Number of cells along the longest side of the scene. With this number, the grid takes half a megabyte. With
+// fewer cells, points where no object matters would take more time.
 constexpr int kCells = 32;
 
 double distance(const V3d& point, const ReachGrid::Reach& reach) {

@@ -1,6 +1,6 @@
 #pragma once
-// Finds which of many objects with limited reach matter at a point, in a time that does not grow with their
-// number.
+// Finds the objects of limited reach that matter at a point, in a time that does not depend on the number of
+// all objects.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@ namespace rsphere {
 
 class ReachGrid {
  public:
-  // All points within a distance of a line segment (world units).
+  // The region within a distance of a line segment (world units).
   struct Reach {
     V3d begin{0, 0, 0}, end{0, 0, 0};
     double distance = 0;
@@ -20,9 +20,10 @@ class ReachGrid {
 
   // bounds: of the points for which at() will be called; not empty.
   ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds);
-  ReachGrid() = default;  // nothing reaches anywhere
+  ReachGrid() = default;  // without objects
 
-  // In ascending order, the numbers of all objects that reach the point, and of some that almost do.
+  // The indices of all objects whose reach contains the point, in ascending order; may include some nearby
+  // ones.
   std::span<const uint32_t> at(const V3d& point) const {
     if (begin_.empty()) return {};
     const V3d cell = (point - low_) * perLength_;
@@ -32,7 +33,7 @@ class ReachGrid {
   }
 
  private:
-  // The index of the cell, from 0 to count - 1; places outside get the first or the last one.
+  // The index of a cell, from 0 to count - 1. Places outside of the grid use its first or last cell.
   static size_t inner(double at, size_t count) {
     return at > 0 ? (at < static_cast<double>(count) ? static_cast<size_t>(at) : count - 1) : 0;
   }
@@ -40,7 +41,7 @@ class ReachGrid {
   V3d low_{0, 0, 0};
   double perLength_ = 0;  // cells per world unit
   std::array<size_t, 3> counts_{};
-  std::vector<uint32_t> begin_, numbers_;  // where each cell's numbers begin
+  std::vector<uint32_t> begin_, numbers_;  // begin_: index in numbers_ of the first number of each cell
 };
 
 }  // namespace rsphere

@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles around polygons that lie in one plane.
+// Bounding rectangles of coplanar polygons.
 #include <span>
 
 #include "scene/scene.h"
@@ -12,13 +12,13 @@ struct Rectangle {
   double width = 0, height = 0;                                  // along x and y
 
   double area() const { return width * height; }
-  // The point at these shares of the width and of the height.
+  // The point at these fractions of the width and the height.
   V3d at(double u, double v) const { return corner + u * width * x + v * height * y; }
 };
 
-// The smallest rectangle around coplanar polygons that has a side parallel to the longest edge of the first
-// polygon. Among edges of equal length, within rounding, the first is used. Its normal is that of the first
-// polygon. REQUIRES a polygon; one of no area may give a rectangle of no area.
+// The smallest rectangle around coplanar polygons that is aligned with the longest edge of the first polygon.
+// Edges whose lengths differ only by rounding are treated as equal, and the first is used. The normal is that
+// of the first polygon. REQUIRES at least one polygon. The area may be 0 if a polygon has no area.
 Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> polygons);
 
 // The vertices of a polygon of the scene (world units).

@@ -26,8 +26,8 @@ LightId sourceNamed(const Scene& scene, const LightSources& lights, std::string_
 }
 
 static_assert(kLightForms == 8, "May samples lie outside the surface?");
-// A box that contains all samples of a source. For an image of a source, it contains the relay that rays to
-// the image hit first. Empty for distant sources.
+// A box that contains all samples of a source. For a virtual source it contains the relay, which rays to the
+// source hit first. Empty for distant sources.
 Box3d boxOf(const Scene& scene, const LightSource& light) {
   if (light.isDistant() && !light.isVirtual()) return {};
   Box3d box = bounds(scene.surfaces[light.surface].shape, scene.vertices);
@@ -40,8 +40,8 @@ Box3d boxOf(const Scene& scene, const LightSource& light) {
   return box;
 }
 
-// Up to this number it takes less time to sample sources than to find out that they are hidden. By
-// measurement.
+// Up to this number of sources, sampling all of them takes less time than finding those that are hidden
+// (measured).
 constexpr size_t kFewSources = 16;
 
 std::vector<Box3d> boxesOf(const Scene& scene, const LightSources& lights) {
@@ -62,7 +62,7 @@ MistSources::MistSources(const Scene& scene, const LightSources& lights, const r
     for (const std::string& name : mist->sources) {
       const LightId source = sourceNamed(scene, lights, name);
       if (source == kNone) {
-        // In a scene with goals, light sources do not emit, so that the warning would be pointless.
+        // No warning in a scene with importance goals, where light sources do not emit.
         if (warn && !scene.importance)
           warn(fmt::format("{}: unknown source \"{}\"", scene.place(m.primitive), rad::printable(name)));
         continue;

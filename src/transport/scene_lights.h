@@ -13,39 +13,38 @@
 
 namespace rsphere {
 
-// The light sources that mists name (the materials of type mist that list sources).
+// The light sources that materials of type mist name.
 class MistSources {
  public:
-  // warn: called with names that no light source has. Throws rad::Error if mists name more than 65535
-  // sources.
+  // warn: called for names that no light source has. Throws rad::Error if mists name more than 65535 sources.
   MistSources(const Scene& scene, const LightSources& lights, const rad::Warn& warn);
 
-  // Those that any mist names.
+  // All light sources that are named by any mist.
   const std::vector<LightId>& all() const { return all_; }
-  // Those that one mist names, as positions in all().
+  // The light sources that one mist names, as indices in all().
   const std::vector<uint16_t>& of(const Mist& mist) const { return ofMist_[mist.number]; }
 
  private:
   std::vector<LightId> all_;
-  std::vector<std::vector<uint16_t>> ofMist_;  // by Mist::number
+  std::vector<std::vector<uint16_t>> ofMist_;  // index: Mist::number
 };
 
-// The light sources of a scene, and the facts about them that tracing needs. Shared by all threads.
+// The light sources of a scene, with data about them that tracing needs. Shared by all threads.
 class SceneLights : public LightSources {
  public:
-  // relays: -dr. warn: gets the warnings of LightSources and MistSources. Keeps references to the scene and
-  // the tracer.
+  // relays: -dr. warn: receives the warnings of LightSources and MistSources. Keeps references to the scene
+  // and the tracer.
   SceneLights(const Scene& scene, const Tracer& tracer, const SurfaceFunctions& functions, int relays,
               const rad::Warn& warn);
   SceneLights(const SceneLights&) = delete;
   SceneLights& operator=(const SceneLights&) = delete;
 
-  // A surface's own light, or kNone.
+  // The light source that a surface is, or kNone.
   LightId of(SurfaceId surface) const {
     const auto number = luminous_.numberOf(surface);
     return number ? LightId(*number) : kNone;
   }
-  // The radiance of a light source if it is the same from all points and directions; null if it has to be
+  // The radiance of a light source if it is the same for all points and directions; null if it must be
   // computed for each ray.
   const Radiance* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
@@ -54,8 +53,8 @@ class SceneLights : public LightSources {
   const std::vector<SurfaceId>& distant() const { return distant_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
-  // Finds light sources that are hidden from a point, by their numbers. An image of a source is hidden if the
-  // relay that shows it is.
+  // Finds light sources that are hidden from a point, by their numbers. A virtual source is hidden if its
+  // relay is hidden.
   const HiddenBoxes& hidden() const { return hidden_; }
   const MistSources& ofMists() const { return ofMists_; }
 
@@ -64,7 +63,7 @@ class SceneLights : public LightSources {
   SourceChoice choice_;
   HiddenBoxes hidden_;
   MistSources ofMists_;
-  ChosenSurfaces luminous_;  // surfaces that are light sources, which are the first lights, in the same order
+  ChosenSurfaces luminous_;  // surfaces that are light sources; they are the first lights, in this order
   ById<LightId, std::optional<Radiance>> constantRadiance_;
   std::vector<SurfaceId> distant_;
 };

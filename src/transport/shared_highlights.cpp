@@ -9,7 +9,7 @@
 namespace rsphere {
 namespace {
 
-// The solid angle (sr) that the source would fill if all of it were seen as it is in this direction.
+// The solid angle (sr) of the whole source if all of it had this distance and orientation.
 double apparentSize(const LightSource& source, double distance, double cosine) {
   const auto ofBall = [&] {
     const double r = source.radius, toCenter2 = distance * distance + r * r + 2 * distance * r * cosine;
@@ -43,7 +43,7 @@ Radiance sourceSeenBy(const PreparedScene& prepared, const RayEnd& sample) {
   if (sample.hit.surface == kNone || !hitFront(sample.hit)) return {};
   const LightId source = prepared.lights().of(sample.hit.surface);
   if (source == kNone || !sharesHighlights(prepared, source)) return {};
-  const Medium& medium = sample.medium();  // attenuates the sample as it does shadow rays
+  const Medium& medium = sample.medium();  // attenuates it like shadow rays
   return *prepared.lights().constantRadiance(source) *
          passing(medium.extinction * (Color(1, 1, 1) - medium.albedo), sample.hit.length);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Tuning = tuning::SourceEmission;
 
-// A direction (unit), uniform within a cone of this solid angle (sr).
+// A random direction (unit), uniform within a cone of this solid angle (sr).
 V3d withinCone(const V3d& axis, double solidAngle, Random& random) {
   const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
   const double r = std::sqrt(std::max(0., 1 - height * height));
@@ -38,7 +38,7 @@ SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurface
   share();
 }
 
-// Divides the paths by power and preference.
+// Divides the paths among the sources by power and preference.
 void SourceEmission::share() {
   double sum = 0, power = 0;
   for (Sender& s : senders_) {
@@ -65,8 +65,8 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
   double own = 0, others = 0;
   for (const LightId i : senders_.ids()) (isPreferred[i] ? own : others) += senders_[i].power;
   if (!(own > 0)) return changed;
-  // Preferred sources get three of four paths. The others keep a quarter of their paths, which doubles their
-  // noise.
+  // Three of four paths come from preferred sources. The other sources keep at least a quarter of their
+  // paths, which at most doubles their noise.
   const double factor = std::max(1., 3 * others / own);
   for (const LightId i : senders_.ids()) changed.senders_[i].factor = isPreferred[i] ? factor : 1;
   changed.share();
@@ -74,7 +74,7 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
 }
 
 LightId SourceEmission::sourceAt(double share) const {
-  // A share of 1 lies beyond the last source.
+  // A value of 1 may lie beyond the last source.
   const auto sender = std::upper_bound(senders_.begin(), senders_.end(), share,
                                        [](double w, const Sender& s) { return w < s.upTo; });
   return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));
@@ -113,8 +113,8 @@ SourceEmission::Way SourceEmission::way(LightId source, Random& random, Function
   return way;
 }
 
-// Estimates the power of an uneven source from random directions. Always above 0, because they may miss all
-// of its light.
+// Estimates the power of a source that is not even, from random directions. The result is always above 0,
+// because these directions may miss all of its light.
 double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;
@@ -144,14 +144,14 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
 }
 
 static_assert(kLightForms == 8, "Where are shadow rays aimed?");
-// The density of the points on a source at which shadow rays from a place are aimed (1/m2); 0 if it is not
-// known. distance: of the source's point. cosine: there, between the ray and the normal.
+// The density (1/m2) of the points on a source at which shadow rays from a place are aimed; 0 if it is
+// unknown. distance: from the place to the point. cosine: between the ray and the normal at that point.
 double SourceEmission::aimedDensity(LightId light, double distance, double cosine) const {
   const LightSource& source = prepared_.lights().all()[light];
   if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
   if (!source.as<BallLight>()) return 0;
-  // Shadow rays are uniform in the cone that the ball subtends. The distance of its center follows from the
-  // law of cosines.
+  // Shadow rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its
+  // center.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
   const double sine2 = r * r / square;
   const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));

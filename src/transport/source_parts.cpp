@@ -12,8 +12,8 @@
 namespace rsphere {
 namespace {
 
-// Cap on the parts along each side of a source, so that one source has no more parts than are kept of all
-// sources (Caps::kAimed).
+// Cap on the number of parts along each side of a source. A single source then has at most Caps::kAimed
+// parts, the cap for all sources together.
 const double kMostAlong = std::sqrt(static_cast<double>(tuning::Caps::kAimed));
 
 static_assert(kLightForms == 8, "Is it round?");
@@ -109,7 +109,7 @@ bool seesPart(const Tracer& tracer, const LightingPart& lighting, const V3d& fro
 
 double usualRadiance(const Scene& scene, const Tracer& tracer, const LightSources& lights) {
   const V3d size = tracer.bounds().size();
-  // Surfaces in octrees and meshes are not looked at.
+  // scene.area() lacks surfaces in octrees and meshes, so that the area of the bounds is a lower limit.
   const double area = std::max(scene.area(), 2 * (size.x * size.y + size.y * size.z + size.z * size.x));
   double power = 0;
   for (const LightSource& light : lights.all())

@@ -11,7 +11,7 @@ namespace {
 
 using Tuning = tuning::SpecularLight;
 
-// The weight below which sharp paths of an indirect ray are followed by Russian roulette.
+// The weight below which sharp paths of an indirect ray are subject to Russian roulette.
 double leastWeight(const PathSettings& settings, const PathContext& ray) {
   return std::max(Tuning::kWeakBranch * ray.weight,
                   isOfGather(settings, ray) ? 1 / tuning::RayLimits::kMostDescendants : 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Light from sharp reflection and refraction, and from glossy lobes by sampling.
+// Light from sharp reflection and refraction, and from samples of glossy lobes.
 #include "shade/material_response.h"
 #include "transport/function_ref.h"
 #include "transport/path_state.h"
@@ -8,10 +8,10 @@
 
 namespace rsphere {
 
-// Draws sample i of n of a lobe.
+// Draws sample i of n samples of a lobe.
 using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 
-// The part of a source's light that is left to samples of the lobe, for a sample that has hit the source
+// The light of the source that a lobe's sample has hit, with the weight of lobe samples
 // (shared_highlights.h).
 using LobeShare = FunctionRef<Radiance(const RayEnd& sample)>;
 
@@ -22,9 +22,9 @@ class SpecularLight {
                 RayFollower& follower)
       : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
 
-  // Each adds light to the result of a ray (W/sr/m2): that of sharp paths from its end; that of the rays that
-  // a prism redirects; and, for a shadow ray that has reached a virtual source, that of the source which it
-  // relays.
+  // Each function adds light to the result of a ray (W/sr/m2): that of sharp paths from the ray's end; that
+  // of rays redirected by a prism; and, for a shadow ray that has hit the relay of a virtual source, that of
+  // the source shown by the relay.
   void add(const RayEnd& end, const SharpPaths& sharp, RayResult& result);
   void add(const RayEnd& end, const ReflectsSharply& response, RayResult& result) {
     add(end, response.scattering.sharp, result);
@@ -32,7 +32,8 @@ class SpecularLight {
   void add(const RayEnd& end, const Redirects& redirects, RayResult& result);
   void add(const RayEnd& end, const Relays& relays, RayResult& result);
 
-  // The light of one lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
+  // Adds the light of a lobe, estimated by samples. kind: of the samples' rays. share: see LobeShare; null:
+  // none.
   void addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw, const LobeShare* share,
                RayResult& result);
 

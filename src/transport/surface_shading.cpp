@@ -21,12 +21,11 @@ MaterialOptions materialOptions(const PreparedScene& prepared) {
           .medium = prepared.options().medium()};
 }
 
-// A ray is straight if its direction (unit) changed by less than this on its way through panes.
+// A ray through panes is straight if its direction (unit) differs by less than this from the first direction.
 constexpr double kStraight = 1e-9;
 
-// Whether a ray continues the primary ray in a straight line, except for its reflection by
-// PathContext::mirror, and passes no surface that blocks shadow rays, so that shadow rays to the source reach
-// it as well.
+// Whether a ray continues the primary ray in a straight line, except for a reflection by PathContext::mirror,
+// and has passed no surface that blocks shadow rays. Shadow rays can then reach the source in the same way.
 bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDirection) {
   const SurfaceId mirror = end.context.mirror;
   for (const RayEnd* before = end.context.parent; before; before = before->context.parent) {
@@ -42,13 +41,13 @@ bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDir
   return (end.ray.direction - direction).length2() < kStraight * kStraight;
 }
 
-// Adds a light source that the ray shows to the state of its path, if the ray is one that shows sources
-// (TracedRay::shown). The ray hit a surface that emits light towards it.
+// Records a light source that a ray shows (TracedRay::shown) in the state of its path, if the ray satisfies
+// the conditions for that. REQUIRES that the ray hit a surface that emits light towards it.
 void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
   const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
   if (t.lights().of(surface) == kNone) return;
-  // The ray shows this source only if it came straight or was mirrored once. Behind a slab, such as thick
-  // glass, refraction displaces the ray, which makes no difference to a distant source.
+  // The ray shows this source only if it is straight or was mirrored once. A slab, such as thick glass,
+  // displaces the ray by refraction, which does not matter for a distant source.
   const bool isDistant = t.scene().surfaces[surface].shape.as<Distant>();
   const unsigned others = end.context.kinds & ~(kPrimary | kTransmitted | (isDistant ? kRefracted : 0u));
   if (others != (mirror == kNone ? 0u : kReflected)) return;
@@ -69,7 +68,7 @@ SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings
              {prepared, settings, state, follower}},
       context_{prepared.scene(), prepared.functions(), materialOptions(prepared)} {}
 
-// The end of a ray as its material sees it.
+// Gives the material access to the end of a ray.
 class SurfaceShading::Seen final : public MaterialHit {
  public:
   Seen(SurfaceShading& shading, RayEnd& end, ModifierId behind)
@@ -103,7 +102,7 @@ class SurfaceShading::Seen final : public MaterialHit {
 
 // ---- surfaces and their modifiers
 
-// If the surface is a goal, its emission is added.
+// For a surface that is an importance goal, adds its emission.
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
@@ -131,7 +130,7 @@ bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& res
     const auto* material = std::get_if<Material>(&m.content);
     if (!material) {
       if (applyModifier(end, modifier, result)) {
-        // A mixture of materials must be the last modifier of a chain.
+        // A mixture of materials must be the last modifier in a chain.
         if (m.next != kNone) throw rad::Error(t_.scene().place(m.primitive) + ": inappropriate modifier");
         return true;
       }
@@ -149,7 +148,8 @@ bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& res
   return false;
 }
 
-// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded it with a material.
+// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded the hit with a
+// material.
 inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayResult& result) {
   const Content& content = t_.scene().modifiers[modifier].content;
   SurfaceHit& hit = end.hit;
@@ -168,7 +168,7 @@ inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayR
   return false;
 }
 
-// Applies the modifiers of a material: patterns, textures, and mixtures of them.
+// Applies the modifiers of a material: patterns, textures, and mixtures of these.
 inline void SurfaceShading::applyModifiers(RayEnd& end, ModifierId modifier) {
   for (; modifier != kNone; modifier = t_.scene().modifiers[modifier].next) {
     const Modifier& m = t_.scene().modifiers[modifier];
@@ -180,7 +180,7 @@ inline void SurfaceShading::applyModifiers(RayEnd& end, ModifierId modifier) {
 
 namespace {
 
-// A ray that sees one of the two components of a mixture.
+// A copy of a ray that hits one of the two components of a mixture.
 struct Part {
   double share;
   bool counts, shaded = false;
@@ -216,7 +216,7 @@ SurfaceShading::Mixed SurfaceShading::mix(const RayEnd& end, ModifierId modifier
   Part a(end, share, share > kNegligible, before), b(end, 1 - share, share < 1 - kNegligible, before);
   if (a.counts) a.shaded = shadeChain(a.end, mixture.foreground, a.result);
   if (b.counts) b.shaded = shadeChain(b.end, mixture.background, b.result);
-  // If only one component of a mixture is a material, the other one lets the ray pass.
+  // If only one component of a mixture is a material, the ray passes the other one.
   if (a.counts && !a.shaded && b.shaded) a.result = follower_.pass(a.end);
   if (b.counts && !b.shaded && a.shaded) b.result = follower_.pass(b.end);
   Mixed mixed{a.end.hit.perturbation * a.share + b.end.hit.perturbation * b.share,
@@ -241,8 +241,8 @@ bool SurfaceShading::shadeMaterial(RayEnd& end, const M& material, ModifierId be
     return estimate(end, asked, result);
 }
 
-// The light of a source that a sample of the reflected lobe has hit, and the coefficient that shadow rays
-// leave to it.
+// lobesPart(): the light of the source that a sample of the reflected lobe has hit, with the weight of the
+// lobe. lobesCoefficient(): the part of the coefficient of shadow rays that is left to the lobe.
 template <ScattersLight S>
 Radiance SurfaceShading::lobesPart(const S& scattering, const RayEnd& sample) const {
   const Radiance seen = sourceSeenBy(t_, sample);
@@ -262,7 +262,7 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
 
 namespace {
 
-// Whether a reflection shows the end of a ray to the eye, or to the last diffuse surface before it.
+// Whether the path from the eye, or from the last diffuse surface, to the end of a ray contains a reflection.
 bool isMirrored(const PathContext& context) {
   for (const PathContext* ray = &context; !(ray->kind & kAmbient) && ray->parent; ray = &ray->parent->context)
     if (ray->kind & (kReflected | kReflectedSpecular)) return true;
@@ -280,7 +280,7 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   const bool rough = hasRoughHighlight(*material);
   const bool unjoined = end.context.ambientLevel == 0 || end.known == Known::unjoined;
   if (unjoined && isMirrored(end.context)) {
-    // One shadow ray is not enough for a strong highlight.
+    // A strong highlight needs more than one shadow ray.
     const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
     if (!weak) both.direct = nullptr;
     both.directHere = weak ? Shown::all : Shown::none;
@@ -292,7 +292,8 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   return both;
 }
 
-// Paths from both ends leave little, which some of the paths from the eye find: Russian roulette.
+// Russian roulette: paths from both ends leave little light to paths from the eye, so that only some are
+// followed.
 double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   const VertexLight& light = *state_.request.vertexLight;
   if (!both.indirectHere && light.surfaces().coverage().all) return 0;
@@ -321,8 +322,8 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown s
   value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
-// The light that a surface scatters towards the ray's origin: sharp paths, lobes, and on each side indirect
-// and direct light.
+// The light that a surface scatters towards the ray's origin: sharp paths and lobes, then the indirect and
+// direct light on each side.
 template <ScattersLight S>
 bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   light_.specular.add(end, scattering.sharp(), result);
@@ -339,7 +340,7 @@ bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   return true;
 }
 
-// Adds the light of lobes. Returns whether samples of the reflected lobe estimate a part of the light of
+// Adds the light of the lobes. Returns whether samples of the reflected lobe estimate a part of the light of
 // sources.
 template <ScattersLight S>
 [[gnu::always_inline]] inline bool SurfaceShading::estimateLobes(const RayEnd& end, S& scattering,
@@ -367,7 +368,7 @@ template <ScattersLight S>
   return shares;
 }
 
-// Adds the indirect and direct light of one side.
+// Adds the indirect and direct light on one side.
 template <ScattersLight S>
 [[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
                                                                 Component side, const FromBothEnds& both,
@@ -413,9 +414,11 @@ bool SurfaceShading::estimate(RayEnd& end, const Alternate& alternate, RayResult
 }
 
 bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result) {
-  if (end.context.known != Known::no && (end.context.kinds & kShadow)) return true;  // left to both ends
+  // Estimated by paths from both ends.
+  if (end.context.known != Known::no && (end.context.kinds & kShadow)) return true;
   result.value = emits.radiance;
-  if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);  // most rays are shadow rays
+  // Not for shadow rays, which are the most frequent.
+  if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);
   return true;
 }
 
@@ -433,8 +436,8 @@ bool SurfaceShading::estimate(RayEnd& end, const CrossesMist& boundary, RayResul
 
 bool SurfaceShading::estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result) {
   if (!entersCut(t_.scene(), boundary, end)) return estimate(end, Passes{}, result);
-  // The material lies on the other side of the antimatter's surface: a ray that leaves the antimatter enters
-  // a dielectric, and the reverse.
+  // The material is on the other side of the antimatter's surface: a ray that leaves antimatter enters a
+  // dielectric, and vice versa.
   flip(end.hit);
   end.hit.insideOut = !end.hit.insideOut;
   return shadeChain(end, boundary.cut.modifier, result);

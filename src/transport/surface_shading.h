@@ -1,6 +1,6 @@
 #pragma once
-// Shading of the surface that a ray hit: its chain of modifiers down to a material, mixtures, and the light
-// that the material's response (shade/material_response.h) calls for.
+// Shading of the surface that a ray hit: processes its chain of modifiers down to a material, including
+// mixtures, and adds up the light that the material's response requires (shade/material_response.h).
 #include "shade/material_response.h"
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
@@ -21,15 +21,16 @@ class SurfaceShading {
   DirectLight& direct() { return light_.direct; }
   IndirectLight& indirect() { return light_.indirect; }
 
-  // Sets the radiance (W/sr/m2) at the end of a ray that hit a surface, and what is mirrored there. False,
-  // with nothing done, if the surface is cut away by antimatter or has no material, so that the ray passes
-  // it.
+  // Computes the radiance (W/sr/m2) at the end of a ray that hit a surface, and the mirrored part of it.
+  // False, without any effect, if the ray passes the surface because antimatter cuts it away or because it
+  // has no material.
   bool shade(RayEnd& end, RayResult& result);
 
-  // RayFollower::shade().
+  // Implements RayFollower::shade().
   bool shadeChain(RayEnd& end, ModifierId modifier, RayResult& result);
 
-  // Shades the end of a ray as a white diffuse surface whose radiance is the irradiance there (-i, -I).
+  // Shades the end of a ray as a white diffuse surface whose radiance is equal to the irradiance there (-i,
+  // -I).
   void meter(RayEnd& end, RayResult& result);
 
  private:
@@ -37,21 +38,21 @@ class SurfaceShading {
 
   bool applyModifier(RayEnd& end, ModifierId modifier, RayResult& result);
   void applyModifiers(RayEnd& end, ModifierId modifier);
-  // The result of applying a mixture at the end of a ray.
+  // The result of a mixture at the end of a ray.
   struct Mixed {
     V3d perturbation;
     Color pattern;
-    std::optional<RayResult> light;  // result of its components, if one of them is a material
+    std::optional<RayResult> light;  // the light of its components, if one of them is a material
   };
-  // before: the result of what has been shaded so far.
+  // before: the result of the shading so far.
   Mixed mix(const RayEnd& end, ModifierId modifier, const Mixture& mixture, const RayResult& before);
 
-  // behind: the modifiers of the material itself, the rest of the chain.
+  // behind: the modifiers that follow the material in the chain.
   template <class M>
   bool shadeMaterial(RayEnd& end, const M& material, ModifierId behind, RayResult& result);
 
-  // Each estimates the light of one outcome of a material's response. False, with nothing done, if that is an
-  // alternate modifier without a material.
+  // Each function estimates the light of one outcome of a material's response. False, without any effect, if
+  // the outcome is an alternate modifier without a material.
   bool estimate(RayEnd&, Absorbs, RayResult&) { return true; }
   bool estimate(RayEnd& end, Passes, RayResult& result);
   bool estimate(RayEnd& end, const Alternate& alternate, RayResult& result);
@@ -66,11 +67,12 @@ class SurfaceShading {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // The light of known paths (PlainSurfaces) that paths from both ends bring, so that the surface's usual
-  // shading leaves it out. They bring it either here, or to the eye or an earlier surface.
+  // Indicates which light is left out of a surface's ordinary shading, because paths from both ends estimate
+  // it (known paths: PlainSurfaces). They do so either at this surface, or at the eye or an earlier surface.
   struct FromBothEnds {
-    const PlainSurfaces* direct = nullptr;    // with that of the rough highlight; null: none
-    const PlainSurfaces* indirect = nullptr;  // null: none
+    // Direct light, with that of the rough highlight; null: not left out.
+    const PlainSurfaces* direct = nullptr;
+    const PlainSurfaces* indirect = nullptr;  // indirect light; null: not left out
     Shown directHere = Shown::none;
     bool indirectHere = false;
     double rest =

@@ -1,6 +1,6 @@
 #pragma once
-// All that the path tracers of a run share: the scene prepared for tracing, the aims of gathers, and the
-// caches of interpolated light.
+// The data that all path tracers of a run share: the prepared scene, the aims of gathers, and the caches of
+// interpolated light.
 #include "transport/aims.h"
 #include "transport/caches.h"
 #include "transport/path_tracer.h"
@@ -8,21 +8,21 @@
 
 namespace rsphere {
 
-// Shared by all threads. Constant once constructed, except for the caches. Keeps a reference to the scene.
+// Shared by all threads. Constant after construction, except for the caches. Keeps a reference to the scene.
 class Transport {
  public:
-  // See PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, the constructor
-  // traces some paths to find the openings that daylight enters through. Throws what PreparedScene throws.
+  // As PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, traces some paths to
+  // find the openings through which daylight enters. Throws the exceptions of PreparedScene.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
-  // Prepares the scene of `other` with other options, without warnings. REQUIRES: -bv is the same.
+  // Prepares the scene of `other` with other options, without warnings. REQUIRES that -bv is the same.
   Transport(const Transport& other, const RayOptions& options);
 
   const PreparedScene& prepared() const { return prepared_; }
   Aims aims() const { return aims_; }
   const Caches& caches() const { return caches_; }
 
-  // A tracer for one thread, whose gathers are aimed.
+  // A tracer for one thread. Its gathers use the aims.
   PathTracer pathTracer(const TracingMode& mode = {}) const {
     return PathTracer(prepared_, caches_, aims_, mode);
   }

@@ -15,7 +15,7 @@ using Tuning = tuning::VertexLight;
 // Relative rounding error of single precision, with a margin.
 constexpr double kRounding = 1e-6;
 
-// A vertex as six coordinates: its place, and its normal times a length.
+// A vertex as a point in six dimensions: its position, and its normal times a length.
 class Coordinates {
  public:
   explicit Coordinates(std::span<const LightVertex> vertices) : vertices_(vertices) {
@@ -52,7 +52,7 @@ class Coordinates {
   double length_ = 0;
 };
 
-// The unoccluded light that arrives from a vertex, except for constant factors.
+// The unoccluded light that arrives from a vertex, up to constant factors.
 double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double width2) {
   const V3d way = v.point() - to.point;
   const double here = way.dot(to.normal), there = -way.dot(v.normal());
@@ -61,7 +61,7 @@ double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double
   return v.power * here * there / (square * (square + (v.isUnbounded() ? 0 : width2)));
 }
 
-// The mean of max(h, 0) for h uniform within height +- half. half: above 0.
+// The mean of max(h, 0) for h uniform between height - half and height + half. half: above 0.
 inline float meanAbove(float height, float half) {
   const float above = std::min(std::max(height + half, 0.f), 2 * half);
   return above * above / (4 * half) + std::max(height - half, 0.f);
@@ -69,8 +69,8 @@ inline float meanAbove(float height, float half) {
 
 }  // namespace
 
-// Repeatedly halves the cluster with the largest product of power and extent, until there are enough
-// clusters.
+// Repeatedly halves the cluster with the largest product of power and extent, until the number of clusters is
+// reached.
 VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices) {
   Order order{std::vector<uint32_t>(vertices.size()), {}};
   std::iota(order.vertices.begin(), order.vertices.end(), 0);
@@ -118,7 +118,7 @@ VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<
   for (const LightVertex& v : vertices) box.extendBy(v.point());
   if (!vertices.empty()) middle_ = box.center();
   for (Numbers* const size : {&halfX_, &halfY_, &halfZ_, &halfAlong_, &spread_})
-    size->fill(1);  // where there is no cluster
+    size->fill(1);  // for unused elements
   for (size_t i = 0; i < ends_.size(); ++i) measure(i);
 }
 
@@ -145,7 +145,7 @@ void VertexClusters::measure(size_t i) {
   const V3d at = box.center(), axis = sum.normalized();
   double least = 1;
   for (const LightVertex& v : own) least = std::min(least, axis.dot(v.normal()));
-  // Above 0, and enlarged by the rounding error of single precision.
+  // Enlarged by the rounding error of single precision, and above 0.
   const V3d half =
       .5 * box.size() + V3d(kRounding * (std::sqrt(width2_) + box.size().length() + at.length()));
   x_[i] = static_cast<float>(at.x);
@@ -163,8 +163,8 @@ void VertexClusters::measure(size_t i) {
   sine_[i] = least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
-// Estimates of the light of each cluster. An estimate is 0 only if all its vertices are hidden, or if their
-// weights are 0.
+// Estimates the light from each cluster. An estimate is 0 only if all vertices of the cluster are hidden or
+// have the weight 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const V3d from = to.point - middle_;
   const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
@@ -205,7 +205,8 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
-      // Vertices are seldom in the processor's cache, so that all are prefetched before the first is used.
+      // All vertices are prefetched before the first is used, because few of them are in the processor's
+      // cache.
       __builtin_prefetch(&vertices_[vertex]);
       __builtin_prefetch(&vertices_[vertex].bounces);
       drawn.all[drawn.count++] = {vertex, expected / static_cast<double>(own)};

@@ -13,7 +13,7 @@ namespace {
 
 using Tuning = tuning::VertexLight;
 
-// Chooses one of `count` by weight. Returns count if all are 0.
+// Selects one of `count` with probabilities proportional to weights. Returns count if all weights are 0.
 template <class WeightOf>
 size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& random) {
   double left = random.uniform() * sum;
@@ -27,8 +27,8 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
-// Only in scenes where light sources are hidden from some regions. In other scenes, few regions are hidden
-// from each other.
+// Only made if light sources are hidden from some regions. In other scenes, few regions are hidden from each
+// other.
 std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
   if (!prepared.lights().hidden().divides()) return {};
   return HiddenBoxes(prepared.scene(), prepared.tracer(),
@@ -52,7 +52,7 @@ void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notC
   squaredBrightness += bright * bright * notChosen;
 }
 
-// One sample of one source. finest: -ds, of which one part is chosen; 0: the source is not divided.
+// Selects one source and a sample of it. finest: -ds, where one of the parts is selected; 0: not divided.
 VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double finest, Random& random,
                                               Scratch& scratch) const {
   auto& weights = scratch.weights;
@@ -76,7 +76,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
   return {samples[part], weights[source] / sum * arrives(part) / all};
 }
 
-// The share of the light of a sample that arrives.
+// The transmittance between the place and a source sample; black if occluded.
 Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sample) const {
   const SurfaceId source = prepared_.lights().all()[sample.source].surface;
   switch (
@@ -90,7 +90,7 @@ Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sampl
   }
 }
 
-// The radiance of a sample that arrives (W/sr/m2).
+// The radiance of a source sample that arrives (W/sr/m2).
 Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
                                FunctionScratch& scratch) const {
   if (prepared_.lights().all()[sample.source].isVirtual()) return arrivingByMirrors(at, sample, scratch);
@@ -100,7 +100,7 @@ Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
   return surfaces_.radianceOf(sample.source, point, sample.normal, sample.direction, scratch) * passed;
 }
 
-// The same of an image, which the mirrors must show.
+// The same for a virtual source. Black unless each mirror on the path is hit.
 Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                                         FunctionScratch& scratch) const {
   const auto& lights = prepared_.lights().all();
@@ -124,7 +124,7 @@ Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample
 
 Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& random,
                                Scratch& scratch) const {
-  // A density is known only for samples of the whole source.
+  // The density is only known for samples of the whole source.
   const double finest = seen.density > 0 ? 0 : prepared_.options().sourceSubstructuring;
   const Chosen to = chooseSource(at, finest, random, scratch);
   if (!(to.probability > 0)) return {};
@@ -143,7 +143,7 @@ Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& r
          (share / to.probability);
 }
 
-// The mean radiance that arrives over the hemisphere straight from sources (W/sr/m2).
+// The mean radiance that arrives over the hemisphere directly from sources (W/sr/m2).
 Radiance VertexLight::directAt(const PlainPlace& at, Random& random, Scratch& scratch) const {
   const Chosen to = chooseSource(at, prepared_.options().sourceSubstructuring, random, scratch);
   if (!(to.probability > 0)) return {};
@@ -159,11 +159,11 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
   return far + ofNear(at, how, random, scratch);
 }
 
-// Resampling: of the candidates that are drawn from the clusters, some get a shadow ray, with probabilities
-// in proportion to the light that they would send if unoccluded.
+// Resampled importance sampling: among candidates that are sampled from the clusters, some are selected for a
+// shadow ray, with probabilities proportional to their unoccluded light.
 Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const {
   const VertexClusters::Candidates drawn = clusters_.draw({at.point, at.normal, how.bounces}, random);
-  // Each candidate represents the vertices that were not drawn, too.
+  // The estimated light of all vertices that a candidate represents.
   const auto light = [&](size_t i) { return drawn.all[i].weight / drawn.all[i].drawn; };
   double all = 0;
   for (size_t i = 0; i < drawn.count; ++i) all += light(i);
@@ -181,14 +181,14 @@ Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Rand
   return sum;
 }
 
-// What one vertex adds to the mean radiance that arrives.
+// The contribution of one vertex to the mean radiance that arrives.
 Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   const LightVertex& v = vertices_.all()[i];
   vertices_.powerOf(i).color.prefetch();
   const V3d to = v.point() - at.point;
   const double square = to.length2(), d = std::sqrt(square);
   const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
-  // Between two places on one wall, rounding errors would decide whether they see each other.
+  // For two places on one wall, rounding errors would determine whether they see each other.
   if (!(here > kNegligible) || !(there > kNegligible)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};
@@ -204,7 +204,7 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
     const double u1 = random.uniform(), u2 = random.uniform();
     return diffuseDirection(at.normal, u1, u2);
   }();
-  // NearLight::share() is above u up to this distance.
+  // The largest distance at which NearLight::share() is above u.
   const double u = random.uniform();
   const double farthest =
       u > 0 ? std::min(vertices_.nearLight().width * std::sqrt((1 - u) / u), kFarAway) : kFarAway;

@@ -1,13 +1,13 @@
 #pragma once
-// The light of plain surfaces by paths from both ends: direct light by a shadow ray to one source, indirect
-// light by shadow rays to light vertices.
+// The light of plain surfaces by paths from both ends (bidirectional estimation): direct light by a shadow
+// ray to one source, indirect light by shadow rays to light vertices.
 //
-// Light of vertices arrives with the kernel 1 / (d^2 + c^2) instead of 1 / d^2, which has no bound. One ray
-// in a random direction brings the missing part: the light of the place that it hits at the distance d is
-// added with the probability c^2 / (d^2 + c^2) (Kollig and Keller 2004, "Illumination in the presence of weak
-// singularities"). Such rays do not bring light that has reached a vertex by a highlight or a sharp
-// reflection, so that c is 0 for these vertices. From a place that is joined to the eye, they also find
-// highlights of sources on near surfaces, which light paths meet too rarely in a corner.
+// The light of vertices is computed with the bounded kernel 1 / (d^2 + c^2) instead of 1 / d^2. One ray in a
+// random direction supplies the difference: the light of the place that it hits at a distance d is added with
+// the probability c^2 / (d^2 + c^2) (Kollig and Keller 2004, "Illumination in the presence of weak
+// singularities"). These rays do not sample light that has reached a vertex by a highlight or a sharp
+// reflection, so that c is 0 for such vertices. If the place is joined to the eye, these rays also find
+// highlights of sources on near surfaces, which light paths hit too rarely in corners.
 #include "transport/light_vertices.h"
 #include "transport/vertex_clusters.h"
 
@@ -23,17 +23,17 @@ class VertexLight {
   const PlainSurfaces& surfaces() const { return surfaces_; }
   const LightVertices& vertices() const { return vertices_; }
 
-  // Memory of one thread, kept for speed alone.
+  // Memory that a thread reuses, only to save time.
   struct Scratch {
     std::vector<double> weights;
     std::vector<SourceSample> samples;
     FunctionScratch functions;
   };
 
-  // A place that is seen by sampling directions at the eye. Its direct light is also found by joining light
-  // vertices to the eye; the two are weighted by the balance heuristic.
+  // A place that is seen along a sampled direction from the eye. Its direct light is also estimated by
+  // joining light vertices to the eye; the two estimates are weighted by the balance heuristic.
   struct Seen {
-    V3d view;            // direction (unit) of the ray that shows it
+    V3d view;            // direction (unit) of the ray that hits it
     double density = 0;  // of the eye's samples there, per area of the surface (1/m2)
     double joins =
         0;  // probability that a light vertex there is joined to the eye, divided by joinedReflectance()
@@ -42,12 +42,12 @@ class VertexLight {
   // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2).
   Radiance directOf(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
 
-  // Where the contributions of light vertices are recorded.
+  // Collects the contributions of light vertices.
   struct Record {
     BatchSums batches{};
-    // The part of the batches' variance that is due to the random choice of vertices, not to the vertices
-    // themselves: the sum of the squared contributions, each times the fraction of similar vertices that were
-    // not chosen.
+    // The part of the variance of `batches` that is caused by the random choice among vertices, not by the
+    // vertices. It is the sum of the squared contributions, each times the fraction of similar vertices that
+    // were not chosen.
     Color squares{0, 0, 0};
     double squaredBrightness = 0;
     const SpectralSampling* sampling = nullptr;
@@ -55,14 +55,14 @@ class VertexLight {
     void add(uint8_t batch, const Irradiance& part, double notChosen);
   };
   struct Indirect {
-    int bounces = 1;  // maximum for the light: -ab minus the bounces between the eye and the place
-    // Distance from the eye if light vertices at the place are joined to it, and so bring closeShare();
+    int bounces = 1;  // limit for the light: -ab minus the bounces between the eye and the place
+    // Distance from the eye, if joins of light vertices at the place with the eye provide closeShare();
     // otherwise 0.
     double fromEye = 0;
-    Record* record = nullptr;  // null: none
+    Record* record = nullptr;  // null: contributions are not recorded
     Coefficient scale{1};      // factor on the recorded contributions (sr)
   };
-  // The mean radiance that arrives over the hemisphere of the place after one bounce or more (W/sr/m2).
+  // The mean radiance that arrives over the hemisphere of the place after at least one bounce (W/sr/m2).
   Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace rsphere {
 namespace {
 
-// An extinction without that of a mist, but not below that of the medium outside of all mist.
+// An extinction minus that of a mist, but at least that of the medium outside of all mist.
 double without(double extinction, double mist, double around) {
   const double rest = extinction - mist;
   return rest < around + 1e-12 * mist ? around : rest;
@@ -36,7 +36,7 @@ NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, R
   }
   size_t removed = 0;
   for (const uint16_t s : sources) removed += beyond.scatterers.remove(s);
-  // The ray began inside the mist.
+  // Not all sources were present, so the ray started inside the mist.
   if (removed < sources.size()) addTo(end.changedSpace());
   const Medium around = prepared.options().medium();
   const RayEnd* const entry = end.space().mist;

@@ -1,18 +1,17 @@
 #pragma once
-// Rays at the boundaries of volumes: mist, and antimatter, which cuts other surfaces away.
+// Handles rays at boundaries of volumes: mist, and antimatter, which cuts away other surfaces.
 #include "shade/material_response.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray.h"
 
 namespace rsphere {
 
-// The continuation of a ray beyond a boundary of mist, ready to be followed. If the ray leaves a mist in
-// which it began, that mist is added to the ray's own space too. Throws rad::Error if the light of too many
-// sources is scattered.
+// The continuation of a ray beyond a boundary of mist. If the ray leaves a mist in which it started, that
+// mist is also added to the ray's own space. Throws rad::Error if too many sources are scattered.
 NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, RayEnd& end);
 
-// Sets which surfaces are cut away beyond a boundary of antimatter. Returns whether the ray hits the cut face
-// of a volume there: it does if it has entered more of the volumes that are cut away than it has left.
+// Determines which surfaces are cut away beyond a boundary of antimatter. Returns whether the ray hits the
+// cut face of a volume there. This is so if the ray has entered more of the cut volumes than it has left.
 bool entersCut(const Scene& scene, const CrossesAntimatter& boundary, RayEnd& end);
 
 }  // namespace rsphere
