@@ -34,17 +34,17 @@ bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
 
 // How a part of a surface is divided into patches.
 struct CoarseSolution::Division {
-  int level = 0;  // of the widest cells that are not wider than `side`, or the finest level
-  double side = 0;  // largest side that the surroundings allow (world units)
-  int finest = 0;  // level of the finest cells used for rays from nearby
-  bool isEnclosed = false;  // then hidden patches are not replaced by finer ones
+  int level = 0;            // of the widest cells that are not wider than `side`, or the finest level
+  double side = 0;          // largest side that the surroundings allow (world units)
+  int finest = 0;           // level of the finest cells used for rays from nearby
+  bool isEnclosed = false;  // if true, finer patches are not tried in place of hidden ones
 };
 
 struct Patch {
   bool usable = false;  // it has a gather site
   GatherSite site;
-  double reach = 0;  // harmonic mean distance of its surroundings
-  double share = 0;  // in the light on the room's other surfaces: see Tuning::kUsualShare
+  double reach = 0;         // harmonic mean distance of its surroundings
+  double share = 0;         // in the light on the room's other surfaces: see Tuning::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::atomic<const PatchLinks*> links{nullptr};
@@ -156,8 +156,7 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
   });
 }
 
-Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays,
-                            Asker asker) {
+Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays, Asker asker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);

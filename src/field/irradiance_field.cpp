@@ -145,8 +145,8 @@ void IrradianceField::Cache::enter(FieldReader& memory) {
   const std::lock_guard lock(replacing_);
   if (!kept_ || kept_->isFull()) {
     full = std::move(kept_);
-    // Half of the bound, since other threads may still read the previous memory; less if more are not yet
-    // freed.
+    // Half of the bound, since other threads may still read the previous memory; less if several old memories
+    // have not been freed.
     const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
     const size_t limit =
         bound_ == kNoBound ? kNoBound : std::min(bound_ / 2, bound_ - std::min(bound_, reserved));

@@ -27,8 +27,8 @@ struct Fields {
 // The irradiance cache at the first diffuse surface (irradiance_field.cpp).
 struct IrradianceField {
   // Size of the room around a site, relative to the root mean square distance of the surfaces that the site
-  // sees. The finest spacing, which -ar relates to the size of the scene as in RADIANCE, is proportional to
-  // the size of the room if that is smaller (most daylight models have a wide ground). Chosen by experiment
+  // sees. RADIANCE's -ar relates the finest spacing to the size of the scene. Here it is related to the size
+  // of the room if the room is smaller, because most daylight models have a wide ground. Chosen by experiment
   // in rooms on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. With 4, the light
   // between louvres is 3% too dark. With 2.5, furnished rooms need 3% more gathers.
   //

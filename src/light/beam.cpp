@@ -6,7 +6,7 @@
 namespace rsphere {
 namespace {
 
-constexpr double kSlack = 1e-6;  // radians; far larger than the rounding errors of the angles
+constexpr double kSlack = 1e-6;     // radians; far larger than the rounding errors of the angles
 constexpr double kParallel = 1e-9;  // squared sine of the angle below which two axes are treated as equal
 
 }  // namespace
@@ -33,10 +33,9 @@ Beam sharedBeam(const Beam& a, const Beam& b) {
   const double between = a.axis.dot(b.axis), sine2 = 1 - between * between;
   const Beam& narrower = a.cosine > b.cosine ? a : b;
   if (!(sine2 > kParallel)) return narrower;
-  // middle points halfway between the two directions in which the beams' surfaces cross, and its length is
-  // the cosine of the shared beam. Its products with the axes are the cosines of the beams. If it is s a + t
-  // b with s, t >= 0, each direction d in both beams has d . middle = s (d . a) + t (d . b) >= middle .
-  // middle.
+  // The vector `middle` = s a + t b is the one whose products with the axes a and b are the cosines of the
+  // beams. Its length is the cosine of the shared beam around it. Proof, if s and t are at least 0: each
+  // direction d in both beams has d . middle = s (d . a) + t (d . b) >= middle . middle.
   const double s = (a.cosine - b.cosine * between) / sine2;
   const double t = (b.cosine - a.cosine * between) / sine2;
   if (s <= 0 || t <= 0) return narrower;  // more than half of the narrower beam lies in the other

@@ -14,8 +14,8 @@ namespace {
 
 using Tuning = tuning::DirectLight;
 
-// If the jitter (-dj) is larger than this, gathers do not divide sources into parts: each sample is spread
-// over more than half of its part, so that neighbouring samples would overlap.
+// With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample is
+// then spread over more than half of its source.
 constexpr double kWideJitter = .5;
 
 // Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
@@ -88,7 +88,7 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 
 // Sets `value` to the radiance of a source sample that arrives at the receiver; false if none arrives.
 // to.value: the radiance without occlusion. If the shadow ray has to be followed through surfaces that may
-// transmit light, samples of a lobe do not estimate it, and to.coefficient gets the part for the lobe back.
+// transmit light, samples of a lobe do not estimate it, so that their part is added back to to.coefficient.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -293,7 +293,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
   // Sources too weak to be tested are assumed to be visible as often as the tested sources of the same kind.
   // Kinds are distinguished because the visibility of lamps does not predict that of the sun, and vice versa.
-  // For this, the brightest source of each kind is always tested.
+  // Therefore the brightest source of each kind is always tested.
   for (; tested < count; ++tested) {
     Contribution& c = ranked(tested);
     Tests& tests = ofKind[kindOf(t_.lights().all()[c.sample->source])];

@@ -17,7 +17,7 @@ constexpr size_t kMostKnown = 8;  // number of recent blockers that a region kee
 // has hidden a quarter of the boxes. That number must be above five, because it takes five divisions to
 // isolate the region on one side of a slab: one along the slab, and one along each of its four edges.
 constexpr double kWorthHiding = .4;
-constexpr size_t kLeastHidden = 2;  // boxes
+constexpr size_t kLeastHidden = 2;
 constexpr int kMostInVain = 6;
 // Number of boxes that are examined to decide whether a region is divided.
 constexpr size_t kProbes = 32;

@@ -65,7 +65,7 @@ struct TracedRay : RayQuery, SurfaceHit, RayResult {
   // straight through panes that also transmit shadow rays; a distant source also through parallel-sided
   // slabs. If there are several, it is the one that is not mirrored, otherwise the first.
   ShownSource shown;
-  LeftOut leftOut;  // parts that the request left out and that the surface has
+  LeftOut leftOut;  // the parts of the surface's light that the request left out
 };
 
 }  // namespace rsphere

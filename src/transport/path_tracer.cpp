@@ -51,7 +51,7 @@ void checkDepth(const PathContext& ray) {
 
 }  // namespace
 
-// The recursion, and the objects that it consists of.
+// Implements the recursion, and owns the parts of the path tracer.
 class PathTracer::Path final : public RayFollower {
  public:
   Path(const PreparedScene& prepared, const PathSettings& settings)

@@ -3,9 +3,9 @@
 // diffuse reflectance at the hit, times the sum of - the unoccluded direct light of each source, times the
 // mean visibility of that source, and - uniform ambient light. It serves as a control variate: the estimate
 // is the mean of traced minus guessed radiance, plus the mean of many guesses. This reduces the variance
-// where the radiance is correlated with the guess, as at the bright part of a partition beside a goal, or at
-// the edge of a dark desktop. The paper mentions diffuse objects near light sources as future work. The guess
-// handles these and all other directly visible diffuse objects.
+// where the radiance is correlated with the guess, as between the bright part of a partition beside a goal
+// and the edge of a dark desktop. The paper mentions diffuse objects near light sources as future work. The
+// guess handles these and all other directly visible diffuse objects.
 //
 // Rejected alternatives:
 // - Adaptive directions towards surfaces near sources: 20% more directions gained 7% there.

@@ -105,8 +105,8 @@ struct Openings {
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
   // Regardless of brightness, one side is the bright side of an opening if two conditions hold: at least
   // kMoreSky times as much unreflected sky light arrives from it as from the other side, and sky light is at
-  // least kLeastSky of all light from it. Chosen by experiment. Sunlit blinds
-  // beside a pane are as bright as the sky on its other side, but little sky is seen through them.
+  // least kLeastSky of all light from it. Chosen by experiment. Sunlit blinds beside a pane are as bright as
+  // the sky on its other side, but little sky is seen through them.
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
   // A hole is treated as the same opening as another one if both are parallel (cosine of the angle at least
@@ -150,14 +150,16 @@ struct SharedHighlights {
 // with an overcast sky and with sun.
 struct GatherDirections {
   // Ratio of the fraction of directions aimed at openings to the estimated fraction of the light from them;
-  // the same for spots. Measured for openings in the four rooms:
-  //   .5   1.3  .9   1    1
-  //   .3   7.8  2.4  1.1  1.2
+  // the same for spots. Measured for openings:
+  //   value   variance x time in the four rooms
+  //   .5      1.3  .9   1    1
+  //   .3      7.8  2.4  1.1  1.2
   // For spots, the results from .5 to .9 do not differ beyond noise.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
   // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
-  // near openings, where rooms are brighter than farther inside. Measured in the four rooms:
-  //   1    4.8  2.3  .8   1
+  // near openings, where rooms are brighter than farther inside. Measured:
+  //   value   variance x time in the four rooms
+  //   1       4.8  2.3  .8   1
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
 };
 

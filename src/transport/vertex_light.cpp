@@ -188,7 +188,7 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
   const V3d to = v.point() - at.point;
   const double square = to.length2(), d = std::sqrt(square);
   const double here = to.dot(at.normal) / d, there = -to.dot(v.normal()) / d;
-  // For two places on one wall, rounding errors would determine whether they see each other.
+  // Excludes pairs of places on one wall, whose cosines are rounding errors.
   if (!(here > kNegligible) || !(there > kNegligible)) return {};
   const Coefficient passed = surfaces_.passing(at.point, v.point(), at.surface);
   if (isBlack(passed)) return {};
