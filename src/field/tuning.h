@@ -57,11 +57,12 @@ struct SiteInterpolation {
   // Differences between sites below this number of standard errors are treated as noise. Chosen by
   // experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 1%, time 4%).
   RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
-  // The error of an interpolation is predicted from three quantities at two sites: - the change of the
-  // gradient (site_interpolation.cpp); - the difference of their light, divided by this; - the part of that
-  // difference that the gradients do not predict, also divided by this. The last two detect edges of shadows
-  // between the sites, which gradients do not show. Chosen by experiment. Changing it by 30% has no effect
-  // beyond noise (picture by sun; noise: error 3%, time 6%).
+  // The error of an interpolation is predicted from three quantities at two sites:
+  // - the change of the gradient (site_interpolation.cpp);
+  // - the difference of their light, divided by this;
+  // - the part of that difference that the gradients do not predict, also divided by this.
+  // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by experiment.
+  // Changing it by 30% has no effect beyond noise (picture by sun; noise: error 3%, time 6%).
   RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
   // The relative error of an extrapolation over a distance d is predicted as the larger of two quantities:
   // this constant times (d / R)^2, where R is the harmonic mean distance of the surroundings; and the

@@ -6,10 +6,10 @@
 // radiance in that direction they return.
 //
 // An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
-// An image is omitted if geometry alone shows that it lights nothing: the source lies behind the mirror or
 // faces away from the relay, or the source's light misses the relay after passing the preceding relays
-// (bounded by planes through the exact corners of source and relays: penumbra.h). RADIANCE also
-// Here every image is tested for shadows, as with RADIANCE's -dp 0.
+// (bounded by planes through the exact corners of source and relays: penumbra.h). RADIANCE also sends test
+// rays (-dp): it drops an image if all of them are blocked, and omits its shadow tests if none is. Here every
+// image is tested for shadows, as with RADIANCE's -dp 0.
 #include <vector>
 
 #include "light/light_source.h"

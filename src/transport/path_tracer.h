@@ -24,11 +24,12 @@ class PathTracer {
   PathTracer(PathTracer&&) noexcept;
 
   // Radiance along a primary ray (W/sr/m2), or irradiance (W/m2) according to PreparedScene::irradiance: on
-  // the surface that is hit (-i), or on a fictitious surface at the origin that faces the ray (-I; see
-  // inputRay()). direction: unit. farthest: limit on the distance (-ld, world units); 0: none. The seed
-  // determines all random numbers of the path. Throws rad::Error - if a path passes more than 20500 surfaces
-  // in succession, - if it passes more surfaces than this thread's stack has room for (at most 2 kB each), -
-  // if Russian roulette has no weight limit to compare with (-lw 0).
+  // the surface that is hit (-i), or on a fictitious surface just ahead of the origin that faces the ray (-I;
+  // see inputRay()). direction: unit. farthest: limit on the distance (-ld, world units); 0: none. The seed
+  // determines all random numbers of the path. Throws rad::Error
+  // - if a path passes more than 20500 surfaces in succession,
+  // - if it passes more surfaces than this thread's stack has room for (at most 2 kB each),
+  // - if Russian roulette has no weight limit to compare with (-lw 0).
   TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
                   const PathRequest& request = {});
 

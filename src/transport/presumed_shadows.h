@@ -1,10 +1,11 @@
 #pragma once
 // The occlusion that rtrace assumes without tracing a shadow ray. Before tracing one, rtrace looks up the
-// ray's cell in a grid around the source: - distant sources: 40 x 40 cells over the scene's cube as seen from
-// the source, - other sources: 20 x 20 cells on each face of a cube of directions around the source. A cell
-// stores one surface: the first opaque one on the line from the source through the middle of the cell. If
-// that surface intersects the straight line from the point to the source, rtrace treats the source as hidden,
-// even if the shadow ray would be refracted past the surface.
+// ray's cell in a grid around the source:
+// - distant sources: 40 x 40 cells over the scene's cube as seen from the source,
+// - other sources: 20 x 20 cells on each face of a cube of directions around the source.
+// A cell stores one surface: the first opaque one on the line from the source through the middle of the cell.
+// If that surface intersects the straight line from the point to the source, rtrace treats the source as
+// hidden, even if the shadow ray would be refracted past the surface.
 //
 // Without this rule, places behind thick dielectric slabs would be brighter than with rtrace. In a scene of
 // small boards on a slab, they would be .7% brighter on average, and wrong at half of the places between the

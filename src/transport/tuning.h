@@ -16,11 +16,12 @@ namespace rsphere::tuning {
 
 // Caps that limit the time of each gather, and the time at start.
 struct Caps {
-  // Cap on each of these numbers; the brightest ones are kept: - the openings, the spots and the highlights
-  // on balls at which rays from one point are aimed; - the parts of sources of which one ball shows
-  // highlights. The cap is half of this for spots of light from openings, and for highlights on cylinders,
-  // which cost more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray.
-  // Changing it by 30% has no effect beyond noise (sensors by sun; noise: error 5%, time 4%).
+  // Cap on each of these numbers; the brightest ones are kept:
+  // - the openings, the spots and the highlights on balls at which rays from one point are aimed;
+  // - the parts of sources of which one ball shows highlights.
+  // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
+  // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Changing it by
+  // 30% has no effect beyond noise (sensors by sun; noise: error 5%, time 4%).
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. Changing
