@@ -61,8 +61,8 @@ struct SiteInterpolation {
   // - the change of the gradient (site_interpolation.cpp);
   // - the difference of their light, divided by this;
   // - the part of that difference that the gradients do not predict, also divided by this.
-  // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by experiment.
-  // Changing it by 30% has no effect beyond noise (picture by sun; noise: error 3%, time 6%).
+  // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by
+  // experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 3%, time 6%).
   RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
   // The relative error of an extrapolation over a distance d is predicted as the larger of two quantities:
   // this constant times (d / R)^2, where R is the harmonic mean distance of the surroundings; and the
@@ -135,9 +135,9 @@ struct CoarseSolution {
   // to -aa, because all places that see a patch share its noise. Measured: without this growth, the noise of
   // sensors in a sunlit classroom at -aa .05 is .65%.
   RSPHERE_TUNED(CoarseSolution, double, kFinestAccuracy, .02);
-  // A patch whose share in the light on the room's other surfaces has this value sends the usual number of
-  // rays; the numbers of others are proportional to their shares, which minimizes the noise for a given
-  // total. The share is about the patch's area divided by the square of the room's size. Outdoors, it is
+  // A patch sends the usual number of rays if its share in the light on the room's other surfaces has this
+  // value. The number of rays is proportional to that share, which minimizes the noise for a given total
+  // number. The share is about the patch's area divided by the square of the room's size. Outdoors, it is
   // reduced by the fraction of sky that the patch sees, and by the square of its distance from other
   // surfaces. The value is the share of a square of 36 cm in a room of 4 m. Measured:
   // - With .012, sunlit rooms have 15% more noise, and take a tenth less time.

@@ -42,7 +42,7 @@ struct Relay {
   double offset = 0;         // normal . p for the points p of the plane
   Ball ball;                 // around it
   std::vector<V3d> corners;  // of the polygon, or of a square around the ring
-  std::vector<V3d> hull;  // all points where rays can hit it lie in the hull of these: see hullOf()
+  std::vector<V3d> hull;     // all points where rays can hit it lie in the hull of these: see hullOf()
 };
 
 // One element of the path that the light of an image has taken: the source (unless it is distant) or a relay.
@@ -51,7 +51,7 @@ struct Relay {
 struct Passage {
   // Contains all points behind the last relay that light from here reaches; apex at the ball's center.
   Ball ball;
-  Beam beam;  // its hull contains the part of this element that the light comes from or passes
+  Beam beam;              // its hull contains the part of this element that the light comes from or passes
   std::vector<V3d> hull;  // all that the light has left or come through of it lies in the hull of these
   bool isFlat = false;    // the hull is a polygon
 };
@@ -426,8 +426,8 @@ class Images {
         for (V3d& p : shown.hull) p = projection.point(p);
       }
     } else if (!image.isDistant()) {
-      // The light of a prism appears to come from the image of the source, but images of earlier relays would
-      // be wrong. A shear lengthens the source by at most its shift.
+      // The light of a prism appears to come from the image of the source, but not from images of earlier
+      // relays, which are therefore dropped. A shear lengthens the source by at most its shift.
       const double radius = image.radius * (1 + projection.shift.length());
       const V3d half(radius, radius, radius);
       passages.push_back(

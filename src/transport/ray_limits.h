@@ -53,7 +53,8 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
 
 // Starts counting the descendants of a gather's ray, if light is interpolated. There are two exceptions:
 // - If the descendants of the primary ray are limited, the existing count for the primary ray continues.
-// - For a patch, the existing count for all its rays continues; only the used patches are counted for each ray.
+// - For a patch, the existing count for all its rays continues; only the used patches are counted for each
+//   ray.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;
