@@ -49,10 +49,9 @@ struct Relay {
 // The path is unfolded to a straight line as it appears from behind the last relay: the source and the
 // earlier relays are moved to where the later relays show their images.
 struct Passage {
-  // Contains all points behind the last relay that light from here reaches; apex at the ball's center.
-  Ball ball;
-  Beam beam;              // its hull contains the part of this element that the light comes from or passes
-  std::vector<V3d> hull;  // all that the light has left or come through of it lies in the hull of these
+  Ball ball;  // around it
+  Beam beam;  // contains all points behind the last relay that its light reaches; apex: the ball's center
+  std::vector<V3d> hull;  // its convex hull contains the part of this element that the light leaves or passes
   bool isFlat = false;    // the hull is a polygon
 };
 struct Way {

@@ -23,7 +23,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{7});  // increase this if gathering changes within a program version
+  print.add(uint64_t{7});  // increase this if gathering changes while kVersion stays the same
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})

@@ -45,12 +45,12 @@ struct PathSettings {
 
 // Counts the descendants of one ray: of a gather for interpolation, or of a primary ray in sphere mode.
 struct Descendants {
-  double most = 0;       // above this number, Russian roulette ends weak ones; 0: no limit
-  double weight = 0;     // of their common ancestor
-  int depth = 0;         // of that ancestor
-  int ambientLevel = 0;  // of that ancestor
+  double most = 0;       // above this number, weak ones are subject to Russian roulette; 0: no limit
+  double weight = 0;     // of the ray from which they descend
+  int depth = 0;         // of that ray
+  int ambientLevel = 0;  // of that ray
   int rays = 0;          // followed so far, without shadow rays
-  int patches = 0;       // used so far by the ancestor, or by the latest ray of a patch
+  int patches = 0;       // used so far by that ray, or by the latest ray of a patch
 };
 
 // Each path and each gather begins with a new state, so that no answer can depend on an earlier path.

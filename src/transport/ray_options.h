@@ -17,14 +17,13 @@ struct RayOptions {
   const SpectralSampling* sampling = nullptr;
   WavelengthLimits wavelengths;  // -cw  Also with three channels, spectra are 0 outside these limits.
   // direct light
-  double directThreshold = .03;  // -dt  fraction of the direct light that may remain untested for shadows
-  double directCertainty = .75;  // -dc
-  double directJitter = 0;       // -dj  0 to 1
-  // -ds  largest ratio of the size of a source's part to its distance; 0: not divided.
-  double sourceSubstructuring = .2;
-  int directRelays = 2;        // -dr
-  int chosenSources = 0;       // -Ss  number of random sources sampled at a surface; 0: all
-  int directPretest = 512;     // -dp
+  double directThreshold = .03;      // -dt  fraction of the direct light that may remain untested for shadows
+  double directCertainty = .75;      // -dc
+  double directJitter = 0;           // -dj  0 to 1
+  double sourceSubstructuring = .2;  // -ds  largest size of a source's part per distance; 0: not divided
+  int directRelays = 2;              // -dr
+  int chosenSources = 0;             // -Ss  number of random sources sampled at a surface; 0: all
+  int directPretest = 512;           // -dp
   bool sourcesVisible = true;  // -dv  whether sources show their radiance to primary rays, instead of black
   // specular reflection
   double specularSampling = 1;     // -ss
@@ -48,8 +47,7 @@ struct RayOptions {
   double fieldMemory = 0;   // -Sm  MB; 0: no limit
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; at least one is empty
   // limits
-  // -lr  absolute value: limit, 0: none; if not positive: Russian roulette below -lw.
-  int reflectionLimit = -10;
+  int reflectionLimit = -10;  // -lr  absolute value: limit, 0: none; not above 0: Russian roulette below -lw
   double weightLimit = 1e-4;  // -lw
   // medium
   Color mediumExtinction{0, 0, 0};  // -me  per unit length
