@@ -72,7 +72,7 @@ ModifierId relayMaterial(const Scene& scene, const Surface& surface) {
   return material && imagesMadeBy(*material) > 0 ? modifier : kNone;
 }
 
-// The corners of a box, in an order in which successive corners are mostly joined by edges.
+// The corners of a box, in an order in which edges join successive corners.
 std::vector<V3d> cornersOf(const Box3d& box) {
   std::vector<V3d> corners;
   for (const unsigned k : {0, 1, 3, 2, 6, 7, 5, 4})
