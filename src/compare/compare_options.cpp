@@ -15,17 +15,18 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> double& { return own(o).tolerance; },
        .range = {0, 1},
        .remark = "tolerance of relative differences",
-       .paragraph = "Tolerance: relative differences up to this do not matter, neither of the mean over all "
-                    "records nor of single records."});
+       .paragraph =
+           "Tolerance: relative differences up to this value are accepted, both of the mean over all "
+           "records and of single records."});
   add({.name = "-Cs",
        .arguments = "frac",
        .value = +[](Options& o) -> double& { return own(o).shareBeyond; },
        .range = {0, 1},
        .remark = "share of records that may be beyond it",
        .paragraph =
-           "Share of the records that may differ by more than the tolerance and the noise explain. If "
-           "more records do, the programs differ. Some records may, because a ray that grazes an edge can "
-           "pass on either side of it."});
+           "Share of the records that may differ by more than the tolerance and the noise explain. If more "
+           "records do, the programs differ. A few records may do so without a fault, because a ray that "
+           "grazes an edge can pass on either side of it."});
   add({.name = "-Cr",
        .arguments = "N",
        .value = +[](Options& o) -> int& { return own(o).repeats; },
@@ -40,7 +41,7 @@ std::vector<OptionEntry> makeTable() {
        .value = +[](Options& o) -> int& { return own(o).orientations; },
        .range = {8, kMost},
        .unit = "rays",
-       .remark = "rays a point, of the original",
+       .remark = "rays of the original per point",
        .paragraph =
            "Number of orientations of the plane whose irradiance the original computes at each point. For "
            "points (-S) only."});
@@ -59,10 +60,10 @@ std::vector<OptionEntry> makeTable() {
        .remark = "picture of the differences",
        .paragraph =
            "Writes a picture of the differences, if the records form a picture (-x and -y). The extension "
-           "of the name gives the format. HDR, EXR and TIFF files contain the relative differences "
+           "of the name selects the format. HDR, EXR and TIFF files contain the relative differences "
            "themselves, without their sign. Other files are red where rsphere is brighter, blue where the "
-           "original is brighter, and white where both are equal; colors are full at ten times the "
-           "tolerance."});
+           "original is brighter, and white where both are equal; colors are fully saturated at ten times "
+           "the tolerance."});
   add({.name = "-Ch",
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).page; },

@@ -57,10 +57,10 @@ void addTracking(const Add& add) {
        .value = Custom{setModifier},
        .remark = "tracked modifier",
        .paragraph =
-           "Tracks surfaces with modifier mod: what they send along each path, or the coefficient of "
-           "the path (-V), is added up. May be repeated; the records have the modifiers in this order. "
-           "A modifier that the scene lacks has zeros. The latest -p, -b, -bn and -o before it hold "
-           "for it."});
+           "Tracks surfaces with modifier mod: the light that they send along each path, or the coefficient "
+           "of the path (-V), is added up. May be repeated; each record contains the modifiers in this "
+           "order. A modifier that does not exist in the scene has zeros. The latest -p, -b, -bn and -o "
+           "before it apply to it."});
   add({.name = "-M",
        .arguments = "file",
        .value = Custom{setModifierFile},
@@ -70,9 +70,11 @@ void addTracking(const Add& add) {
   add({.name = "-V",
        .value = +[](Options& o) -> bool& { return own(o).values; },
        .remark = "output contributions|output coefficients",
-       .paragraph = "Toggles values: radiance (W/sr/m2), or irradiance (W/m2) under -i and -I, by which a "
-                    "modifier contributes. Otherwise coefficients are written, by which the radiance of the "
-                    "modifier must be multiplied. Under -i and -I they contain a factor pi."});
+       .paragraph =
+           "Toggles contributions instead of coefficients. A contribution is the part of the radiance "
+           "(W/sr/m2), or of the irradiance (W/m2) under -i and -I, that comes from a modifier. A "
+           "coefficient must be multiplied by the radiance of the modifier to obtain its contribution. "
+           "Under -i and -I it contains a factor pi."});
   add({.name = "-c",
        .arguments = "count",
        .value = +[](Options& o) -> int& { return own(o).raysPerRecord; },
@@ -100,9 +102,9 @@ void addBins(const Add& add) {
        .value = Custom{setBins},
        .remark = "number of bins",
        .paragraph =
-           "Number of bins of a modifier, as an expression of what -e, -f and -p before it define. An "
-           "expression of -b that is not constant needs it; one that is constant must be 0 and has one "
-           "bin."});
+           "Number of bins of a modifier, as an expression of the definitions by the -e, -f and -p before "
+           "it. Required if the expression of -b is not constant. A constant expression of -b must be 0 and "
+           "has one bin."});
   add({.name = "-p",
        .arguments = "list",
        .value = +[](Options& o) -> std::string& { return own(o).next.definitions.parameters; },
@@ -114,7 +116,8 @@ void addBins(const Add& add) {
        .arguments = "text",
        .value = Custom{setExpression},
        .remark = "definitions for bins",
-       .paragraph = "Adds definitions that -b and -bn may use: -e 'MF:4'. They do not concern the scene."});
+       .paragraph =
+           "Adds definitions that -b and -bn may use: -e 'MF:4'. They have no effect on the scene."});
   add({.name = "-f",
        .arguments = "file",
        .value = Custom{setFunctions},
@@ -131,11 +134,11 @@ void addOutputs(const Add& add) {
        .value = +[](Options& o) -> std::string& { return own(o).next.output; },
        .remark = "output file",
        .paragraph =
-           "File that the contributions of the next modifiers are written to instead of standard output, "
-           "or, if it begins with !, the command that reads them. %s in the name stands for the "
-           "modifier, which then has a file of its own, and %d (or %04d and the like) for the bin: a "
-           "file for each. In pictures (-fac with -x and -y) the number goes on from one modifier to the "
-           "next. Otherwise modifiers share the files whose names are equal, side by side.",
+           "File to which the contributions of the next modifiers are written instead of standard output. "
+           "If spec begins with !, it is a command that reads them. %s in the name is replaced by the "
+           "modifier, and %d (or %04d and the like) by the number of the bin, so that there is a separate "
+           "file for each. In pictures (-fac with -x and -y) this number continues from one modifier to the "
+           "next. Otherwise modifiers with equal file names share a file, side by side.",
        .line = noLine});
   add({.name = "-fo",
        .value = +[](Options& o) -> bool& { return own(o).overwrites; },
@@ -145,9 +148,9 @@ void addOutputs(const Add& add) {
        .value = +[](Options& o) -> bool& { return own(o).recovers; },
        .remark = "recover files|start anew",
        .paragraph =
-           "Toggles recovery: the files of -o that exist are completed after the last record that all "
-           "of them have, and the rays of these records are read and not traced. The numbers are those "
-           "of an uninterrupted run. Not with text, nor with -c 0."});
+           "Toggles recovery: the existing files of -o are completed after the last record that all of them "
+           "have, and the rays of the earlier records are read but not traced. The numbers are those of an "
+           "uninterrupted run. Not with text, nor with -c 0."});
 }
 
 // The features that -features lists in addition to those of all programs, in the words of RADIANCE's

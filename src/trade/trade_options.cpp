@@ -33,9 +33,9 @@ std::vector<OptionEntry> makeTable() {
        .range = {0, 1},
        .remark = "error of the reference",
        .paragraph =
-           "Relative standard error of the reference (root mean square over the points). Answers with "
-           "other rotations are added to the reference until its error is below this. 0 stands for a "
-           "tenth of the accuracy asked for."});
+           "Relative standard error of the reference (root mean square over the points). Answers with other "
+           "rotations are added to the reference until its error is below this value. 0 selects a tenth of "
+           "the requested accuracy."});
   add({.name = "-Tb",
        .value = +[](Options& o) -> bool& { return own(o).bounces; },
        .remark = "fewer bounces on|fewer bounces off",
@@ -47,7 +47,7 @@ std::vector<OptionEntry> makeTable() {
   add({.name = "-Tl",
        .arguments = "file",
        .value = +[](Options& o) -> std::string& { return own(o).ladder; },
-       .remark = "settings of one's own",
+       .remark = "user-defined settings",
        .paragraph = "File of settings to measure instead of the usual ones. Each line has the options of one "
                     "setting; the text after # is a comment."});
   add({.name = "-Tc",
