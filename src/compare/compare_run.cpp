@@ -126,8 +126,8 @@ Answers originalPoints(Original& original, const CompareOptions& options, std::s
   return answers;
 }
 
-// The original's options for the irradiance of planes. Gathering at the plane itself takes one bounce, so
-// that one is added. Each plane needs only a few rays, because there are many planes.
+// The original's options for the irradiance of planes. Gathering at the plane itself is a bounce in addition
+// to those of -ab. Each plane needs only a few rays, because there are many planes.
 std::vector<std::string> pointOptions(const Options& options, std::span<const UsedOption> used) {
   std::vector<std::string> words = originalOptions(options, used);
   const std::vector<std::string> more{

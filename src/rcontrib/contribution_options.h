@@ -26,7 +26,7 @@ struct ContributionOptions : Options {
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
 
-  // -x and -y count records; a sum of all rays is one, whatever they say.
+  // Whether -x and -y are numbers of records. With -c 0 there is a single record, the sum of all rays.
   bool countsRecords() const { return raysPerRecord > 0; }
   bool hasResolution() const { return countsRecords() && width > 0 && height > 0; }
 };

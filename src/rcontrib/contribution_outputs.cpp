@@ -156,7 +156,7 @@ class ContributionOutputs::Output {
   std::unique_ptr<RecordWriter> writer;
 
  private:
-  // A command that reads no further has mostly failed; its status says more than a broken pipe.
+  // A command that stops reading has usually failed; its status is a better message than a broken pipe.
   void orSayWhyNot(const std::function<void()>& writing) {
     try {
       writing();

@@ -106,7 +106,7 @@ class Planner {
   };
 
   // As in RADIANCE, the header names the modifier if the name of the file does, or if the file has one value
-  // a record.
+  // per record.
   void join(const std::string& name, const Modifier& modifier, ColumnRange columns,
             const std::optional<uint64_t>& number) {
     const auto [found, isNew] = byName_.emplace(name, plans_.size());
