@@ -6,9 +6,9 @@ in the sum; the level itself, which is larger, stands for it, so that the limit 
 """
 import numpy as np
 
-from lamp_rad import faces
+from surface_parts import surface_parts
 
-FINE = 16  # parts of a luminous opening along each side
+FINE = 256  # parts of the luminous surfaces of a luminaire
 
 
 def position_index(gaze, directions):
@@ -41,35 +41,23 @@ def rating(total, background):
     return 8 * np.log10(0.25 * total / background)
 
 
-def opening(photometry):
-    """Points (n, 3) spread finely over the luminous opening, around the middle of the luminaire (m)."""
-    x, y, h = photometry.size
-    rows = FINE if all(photometry.shines()) and h > 0 else 1
-    at = (np.stack(np.meshgrid(*((np.arange(n) + 0.5) / n - 0.5 for n in (FINE, FINE, rows)), indexing="ij"), axis=-1)).reshape(-1, 3)
-    if photometry.shape != "box":
-        at = at[np.hypot(at[:, 0], at[:, 1]) < 0.5]
-    at = at * [x, y, h]
-    if not photometry.shines()[1]:
-        at[:, 2] = min(f[1][2] for f in faces(photometry))
-    return at
-
-
 def glare_terms(transfer, candidates, eye):
     """L^2 w / P^2 of each candidate at full power for an eye, from what is in front of it of the luminous opening."""
     design, terms = transfer.design, np.zeros(len(candidates))
-    fine = [opening(l.photometry) for l in design.luminaires]
+    fine = [surface_parts(l.photometry, FINE) for l in design.luminaires]
     for j, (c, (parts, seen)) in enumerate(zip(candidates, transfer.points.parts_seen(transfer.index[eye.name, "eye"]))):
-        photometry = design.luminaires[c.luminaire].photometry
-        points = c.position + fine[c.luminaire] * design.units @ c.matrix().T
-        if len(parts) > 1:  # shadow rays went to these alone
-            seen = seen[((points[:, None] - parts) ** 2).sum(axis=-1).argmin(axis=1)]
+        surfaces = fine[c.luminaire]
+        points = c.position + surfaces.points * design.units @ c.matrix().T
+        if len(parts) == 0:
+            continue
+        seen = seen[((points[:, None] - parts) ** 2).sum(axis=-1).argmin(axis=1)]  # shadow rays went to these alone
         to_eye = (eye.position - points) / design.units
         distance = np.linalg.norm(to_eye, axis=1)
         away = to_eye / distance[:, None]
-        share = (away @ eye.gaze < 0) / len(points) / distance**2
+        ahead = (away @ eye.gaze < 0) / distance**2
         # Of a part that something hides no solid angle is left; a pane reduces the luminance.
-        angle = photometry.projected_area(away @ c.matrix()) * share * (seen > 0)
-        light = transfer.light(c, away) * share * seen
+        angle = surfaces.facing(away @ c.matrix()) * ahead * (seen > 0)
+        light = transfer.light(c, away) * surfaces.shares(away @ c.matrix()) * ahead * seen
         if not light.sum() > 0 or not angle.sum() > 0:
             continue
         middle = -(light @ away)

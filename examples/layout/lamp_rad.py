@@ -7,6 +7,7 @@ import numpy as np
 from photometry import TINY
 
 SIDES = 16  # of a prism that stands for a cylinder: its width is within 1.3% of the cylinder's
+SLENDER = 0.2  # a cylinder is one as long as its radius is at most this share of its height
 LUMENS_PER_WATT = 179.0  # RADIANCE's, of white light
 UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "ft": 1 / 0.3048, "in": 12 / 0.3048}  # in a metre
 
@@ -63,14 +64,19 @@ def pattern_text(photometry, name, data, factor, turning=()):
             f"{name}_light light {name}\n0\n0\n3 1 1 1\n")
 
 
+def prism_radius(radius, half):
+    """How far the edges of what stands for a vertical cylinder are from its axis; see tube()."""
+    return radius if radius <= SLENDER * 2 * half else np.pi * radius / (SIDES * np.sin(np.pi / SIDES))
+
+
 def tube(radius, half):
     """The side of a vertical cylinder. A short wide one is a prism: rtrace's rays miss much of such a cylinder.
 
     rtrace warns of it ("source aspect too small"). The prism is as wide, on average over all directions.
     """
-    if radius <= 0.2 * 2 * half:
+    if radius <= SLENDER * 2 * half:
         return [("cylinder", [0, 0, -half, 0, 0, half, radius], "ppppppl")]
-    corner = np.pi * radius / (SIDES * np.sin(np.pi / SIDES))
+    corner = prism_radius(radius, half)
     angles = 2 * np.pi * np.arange(SIDES + 1) / SIDES
     at = lambda t, z: [corner * np.cos(t), corner * np.sin(t), z]  # noqa: E731
     return [("polygon", [*at(a, -half), *at(b, -half), *at(b, half), *at(a, half)], "p" * 12) for a, b in zip(angles, angles[1:])]

@@ -10,19 +10,20 @@ import numpy as np
 
 from built import write_lamps
 from design import read_design
-from fault import Fault
+from fault import Fault, fault
 from forward import Forward, daylight_of
 from page import Page, drawing, table
 from room import program, read_polygons
 from search import search
 from transfer import Transfer
-from wanted import Light, answers, light_of, lit_cells, rows_of
+from wanted import Light, answers, light_of, lit_cells, receiver_of, rows_of
 
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
 SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
+HARDLY_LIT = 0.02  # of what is wanted: less light than this from all candidates together means that a goal faces the wrong way
 
 
 @contextlib.contextmanager
@@ -62,6 +63,7 @@ class Steps:
             self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
             self.light = light_of(self.transfer, d.candidates, self.matrix)
             self.lit = [lit_cells(self.light, i) for i in range(len(self.transfer.receivers))]
+            self.check_sides()
             self.daylight = [self.daylight_in(s) for s in d.all_scenes()]
             print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
                   f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
@@ -69,6 +71,23 @@ class Steps:
             self.tell_layout()
             self.check()
             self.pages()
+
+    def check_sides(self):
+        """Raises Fault for a surface or sensor that all candidates together hardly light: it faces a wall, or out of the room."""
+        for scene in self.design.all_scenes():
+            for goal in scene.goals:
+                if goal.kind != "illuminance" or scene.daylight:
+                    continue
+                i = receiver_of(self.transfer, goal.target, ("plane",))
+                most = float(self.matrix.total()[i].sum())
+                if most < HARDLY_LIT * goal.value:
+                    x, y, z = self.transfer.receivers[i].normals.mean(axis=0) + 0.0
+                    remedy = "turn it round" if goal.target in self.design.sensors else self.other_side(goal.target)
+                    raise fault(*goal.place, f"all candidates together give {goal.target} {most:.2g} lx where it faces, "
+                                f"{x:.2g} {y:.2g} {z:.2g}; if its other side is meant, {remedy}")
+
+    def other_side(self, surface):
+        return "write back behind the goal" if self.design.surfaces[surface].side > 0 else "leave out back"
 
     def matrix_error(self):
         """rms of the standard errors, each by what all candidates together give to its receiver on average."""
@@ -138,9 +157,7 @@ class Steps:
         lamps, files = [self.candidates[j] for j in chosen], list(self.given.room)
         if not lamps:
             return
-        # The middle of a luminaire that shines both ways is inside of its body.
-        if not any(all(d.luminaires[c.luminaire].photometry.shines()) for c in lamps):
-            files.append(write_lamps(d, self.candidates, chosen, np.ones(len(chosen)), folder, "bodies"))
+        files.append(write_lamps(d, self.candidates, chosen, np.ones(len(chosen)), folder, "bodies"))
         with raypath(folder):
             transfer = Transfer(self.rsphere, files, d, folder, self.given.bounces, fine=True)
             finer = min(max(len(self.candidates) // (2 * len(lamps)), 1), MOST_FINER)

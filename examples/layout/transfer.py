@@ -15,15 +15,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lamp_rad import faces
 from room import LIFT, goal_text, has_mirrors
+from surface_parts import GOLDEN as GOLDEN_STEP
+from surface_parts import PART, surface_parts
 from zones import Zones
 
 PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
 SIDES = 8  # of the prism
 APART = 0.3  # m: the least distance of disks and cylinders that are in the scene at once
-PART = 0.2  # m: luminous openings are divided into parts of at most this size for shadow rays
-GOLDEN = (0.6180339887, 0.7548776662)  # steps of points along the shorter sides, modulo 1: no two are near each other
+GOLDEN = (GOLDEN_STEP, 0.7548776662)  # steps of points along the shorter sides, modulo 1
 SPARK = 1e-4  # m, the radius of the lamps that shadow rays go to
 MOST_PARTS = 12  # of a candidate
 MOST_PARTS_BUILT = 96  # of a luminaire of the layout: the edges of its shadows show as steps of this share
@@ -31,7 +31,6 @@ MOST_PLACES_BUILT = 6  # of a luminaire of the layout, at which the importance o
 ALL_PLACES_BUILT = 120  # of all luminaires of the layout; each has at least one
 MOST_SENSORS = 400  # of all cells; if four in each are more, there is one in the middle of each
 LEAST_DIRECTIONS = 64
-IN_FRONT = 0.001  # m: light begins this far before a luminaire that shines to one side
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
@@ -96,24 +95,25 @@ def prism_text(modifier, middle, r):
     return text
 
 
-def lamp_points(photometry, matrix, position, units, most=MOST_PARTS):
-    """Points (n, 3) spread over the luminous opening of a luminaire; a single one if it is small.
-
-    They are a lattice without rows or columns, because the edges of things that hide a luminaire are often parallel to it.
-    """
+def inner_points(photometry, most):
+    """Points (n, 3) spread over the box around the luminous surfaces (m); a single one if it is small."""
     size = np.array([*photometry.size[:2], photometry.size[2] if all(photometry.shines()) else 0])
-    count = int(min(np.prod(np.maximum(np.ceil(size * np.sqrt(most / MOST_PARTS) / PART), 1)), most))
+    count = int(min(np.prod(np.maximum(np.ceil(size / PART), 1)), most))
     step = np.zeros(3)
     step[np.argsort(-size, kind="stable")] = [1 / count, *GOLDEN]
-    at = ((np.arange(count) - (count - 1) / 2)[:, None] * step + 0.5) % 1
-    if photometry.shape == "cylinder" and count > 1:
-        away, angle = np.sqrt(at[:, 0]) / 2, 2 * np.pi * at[:, 1]
-        at[:, 0], at[:, 1] = 0.5 + away * np.cos(angle), 0.5 + away * np.sin(angle)
-    at = (at - 0.5) * size
-    down, up = photometry.shines()
-    if down != up:
-        at[:, 2] = (max if up else min)(f[1][2] for f in faces(photometry)) + (IN_FRONT if up else -IN_FRONT)
-    return position + (at * units) @ matrix.T
+    return (((np.arange(count) - (count - 1) / 2)[:, None] * step + 0.5) % 1 - 0.5) * size
+
+
+def parts_of(photometry, most, as_built):
+    """Points (n, 3) from which the light of a luminaire leaves (m), and a function from unit directions (..., n, 3) to shares.
+
+    as_built: on its surfaces, since its body hides all else; as a luminaire that hides nothing, in the box around them.
+    """
+    if as_built or photometry.shines()[0] != photometry.shines()[1]:
+        parts = surface_parts(photometry, most)
+        return parts.points, parts.shares
+    points = inner_points(photometry, most)
+    return points, lambda directions: np.full(directions.shape[:-1], 1 / len(points))
 
 
 def sees(directions, receiver_kind, normals):
@@ -212,17 +212,16 @@ class Transfer:
             stream.write(text)
         return self.rsphere.Scene([*self.files, path])
 
-    def zone_intensities(self, candidates, zones):
-        """The mean intensity (candidates, zones) in each zone (cd), at full power."""
-        samples = zones.samples()
-        found = {}
-        rows = []
+    def zone_intensities(self, candidates, zones, most):
+        """For each candidate the mean intensities (places, zones) in each zone (cd) of its light at places(), at full power."""
+        samples, found = zones.samples(), {}
         for c in candidates:
             key = (c.luminaire, tuple(c.aim), c.turn)
             if key not in found:
-                found[key] = self.light(c, samples).mean(axis=1)
-            rows.append(found[key])
-        return np.array(rows)
+                points, shares = self.parts(c, most)
+                directions = np.broadcast_to(samples[:, :, None], (*samples.shape[:2], len(points), 3))
+                found[key] = np.einsum("zs,zsp->pz", self.light(c, samples), shares(directions)) / samples.shape[1]
+        return [found[c.luminaire, tuple(c.aim), c.turn] for c in candidates]
 
     def light(self, candidate, directions):
         """The intensity (cd) of a candidate in directions of the room, maintenance and tilt included."""
@@ -234,9 +233,8 @@ class Transfer:
     def matrix(self, candidates, directions, zone_count=500):
         """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
-        mean = self.zone_intensities(candidates, zones)
         self.points = Direct(self, candidates)
-        sets = self.sets(candidates, mean, zones, directions // SETS)
+        sets = self.sets(candidates, zones, directions // SETS)
         return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]], 
                       {i: sets[:, s].reshape(SETS, -1, self.sensors_of_cell, len(candidates)).mean(axis=2) for i, s in self.cells.items()})
 
@@ -250,20 +248,26 @@ class Transfer:
                 found[i, j, zones.at(to / np.linalg.norm(to, axis=1)[:, None])] = False
         return found
 
-    def places(self, candidate, most):
-        """Where the importance that meets a candidate is asked for."""
-        if not self.fine:
-            return candidate.position[None]
-        photometry = self.design.luminaires[candidate.luminaire].photometry
-        return lamp_points(photometry, candidate.matrix(), candidate.position, self.design.units, most)
+    def parts(self, candidate, most=None):
+        """Points of a candidate in the room, and their shares of its light by direction in the room.
 
-    def sets(self, candidates, mean, zones, directions):
+        most: where the importance that meets a candidate is asked for; None: where shadow rays go to.
+        """
+        photometry, matrix = self.design.luminaires[candidate.luminaire].photometry, candidate.matrix()
+        if most is not None and not self.fine:
+            return candidate.position[None], lambda directions: np.ones(directions.shape[:-1])
+        points, shares = parts_of(photometry, most or self.most_parts, self.fine)
+        return candidate.position + points * self.design.units @ matrix.T, lambda directions: shares(directions @ matrix)
+
+    def sets(self, candidates, zones, directions):
         """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
         most = min(max(ALL_PLACES_BUILT // len(candidates), 1), MOST_PLACES_BUILT)
-        spread = [self.places(c, most) for c in candidates]
+        mean = self.zone_intensities(candidates, zones, most)
+        spread = [self.parts(c, most)[0] for c in candidates]
         directions = max(directions // max(map(len, spread)), LEAST_DIRECTIONS)
         places, which = np.unique(np.round(np.concatenate(spread), 9), axis=0, return_inverse=True)
-        which, whose = which.ravel(), np.repeat(np.arange(len(candidates)), [len(p) for p in spread])
+        which, light = which.ravel(), np.concatenate(mean)
+        whose = np.repeat(np.arange(len(candidates)), [len(p) for p in spread])
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
         values = np.zeros((SETS, self.goal_count(), len(candidates)))
         for group in self.groups:
@@ -271,21 +275,22 @@ class Transfer:
             count = len(group.areas)
             step = max(1, MOST_VALUES // (count * zones.count))
             for begin in range(0, len(places), step):
-                here = np.flatnonzero((which >= begin) & (which < begin + step))
+                here = np.flatnonzero((which >= begin) & (which < begin + step))  # parts
                 for k in range(SETS):
                     # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
-                    def bins(bounces, dv, group=group, here=places[begin : begin + step], k=k):
-                        a = group.scene.importance(here, goals=group.goals, bins=zones.count, outputs="z", rotation=k,
+                    def bins(bounces, dv, group=group, at=places[begin : begin + step], k=k):
+                        a = group.scene.importance(at, goals=group.goals, bins=zones.count, outputs="z", rotation=k,
                                                    ambient_bounces=bounces, directions=directions, dv=dv)
                         return a.bins.reshape(-1, len(group.areas), zones.count, 3) @ WEIGHTS / group.areas[:, None]
 
                     reflected = bins(self.bounces, False)
                     mirrored = bins(0, True) - bins(0, False) if group.points else None
-                    for at, j in zip(which[here] - begin, whose[here]):
+                    for part in here:
+                        at = which[part] - begin
                         w = reflected[at]
                         if group.points:
                             w = w + mirrored[at] * beside[:, begin + at]
-                        values[k, group.first : group.first + count, j] += w @ mean[j] * area / len(spread[j])
+                        values[k, group.first : group.first + count, whose[part]] += w @ light[part] * area
         return values
 
 
@@ -302,11 +307,10 @@ class Direct:
 
     def lamps(self):
         """The points that shadow rays go to, each once: (n, 3), and for each candidate those of its parts."""
-        design, points, number, of = self.t.design, [], {}, []
+        points, number, of = [], {}, []
         for c in self.candidates:
-            photometry = design.luminaires[c.luminaire].photometry
             mine = []
-            for p in lamp_points(photometry, c.matrix(), c.position, design.units, self.t.most_parts):
+            for p in self.t.parts(c)[0]:
                 key = tuple(np.round(p, 9))
                 if key not in number:
                     number[key] = len(points)
@@ -334,8 +338,14 @@ class Direct:
             self.fill(i, r, lamps, self.of, self.seen[i])
 
     def parts_seen(self, i):
-        """For each candidate its points, and the shares of their light that pass to the single point of a receiver."""
-        return [(self.lamp_points[mine], self.seen[i][0, mine]) for mine in self.of]
+        """For each candidate its points on surfaces that face the single point of a receiver, and the shares of light that pass."""
+        found = []
+        for c, mine in zip(self.candidates, self.of):
+            points, shares = self.lamp_points[mine], self.t.parts(c)[1]
+            away = self.t.receivers[i].points - points
+            faces = shares(away / np.linalg.norm(away, axis=1)[:, None]) > 0
+            found.append((points[faces], self.seen[i][0, mine][faces]))
+        return found
 
     def visibility(self, rays, lamps):
         t, radius = self.t, SPARK * self.t.design.units
@@ -364,4 +374,5 @@ class Direct:
             distance = (to**2).sum(axis=-1)
             away = to / np.sqrt(distance)[..., None]
             weight = sees(-away, receiver.kind, receiver.normals[:, None]) / distance * seen[:, mine] * square
-            self.exact[i][:, j] = (weight * self.t.light(candidate, away)).mean(axis=1)
+            shares = self.t.parts(candidate)[1](away)
+            self.exact[i][:, j] = (weight * self.t.light(candidate, away) * shares).sum(axis=1)

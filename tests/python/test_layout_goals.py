@@ -115,6 +115,31 @@ class Goals(unittest.TestCase):
             self.assertAlmostEqual(p, f, delta=0.03)
         self.assertGreater(max(abs(p - f) for p, f in zip(planned, found[1:] + found[:1])), 0.1, "those of other desks differ")
 
+    def test_luminaires_that_shine_both_ways(self):
+        """They were planned without their bodies, and desks 9% too high: a lamp hid nothing of the light of another."""
+        pendant = ("IESNA:LM-63-2002", "TILT=NONE", "1 -1 1 5 1 1 2 .5 1.2 .06", "1 1 28", "0 45 90 135 180", "0", "300 250 20 350 450")
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "pendant.ies")
+            with open(file, "w", encoding="ascii") as stream:
+                stream.write("\n".join(pendant))
+            places = [f"place pendant 1.9 {y} {z}" for y in (1.2, 1.8) for z in (2.2, 2.7)]
+            run, _ = self.run_on([f"luminaire pendant {file}", *places, "illuminance desk1 230", "illuminance ceiling 20", "most 4"],
+                                 ("-c", "64", "-d", "256", "-b", "1"))
+        rows = [line.split() for line in run.stdout.splitlines() if line.startswith("illuminance")]
+        self.assertEqual(len(rows), 2, run.stdout + run.stderr)
+        for row in rows:
+            self.assertAlmostEqual(float(row[4]) / float(row[6]), 1, delta=0.03, msg=run.stdout)
+
+    def test_goals_that_face_the_wrong_way(self):
+        """A wall that faces outside, and a sensor under a desk that looks down, were "nearest" without a hint."""
+        for lines, words in (
+            (["illuminance floor 300 back"], r"goals\.txt:3: .* where it faces, .*leave out back"),
+            (["sensor s 1.9 1.2 .001 0 0 -1", "illuminance s 300"], r"goals\.txt:4: .* faces, 0 0 -1; .*turn it round"),
+        ):
+            run, _ = self.run_on([*GOOD[:2], *lines])
+            self.assertEqual(run.returncode, 1, run.stdout)
+            self.assertRegex(run.stderr, words)
+
     def test_nearly_met_is_not_missed(self):
         """A goal within the tolerance of the check was called met and impossible at once."""
         lines = ["maintenance .8", GOOD[0], "grid panel ceiling spacing 1.2 .9 margin .45", "most 4", "illuminance desk* 500 spacing .4"]
