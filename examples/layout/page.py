@@ -43,11 +43,12 @@ def drawing(design, polygons, candidates, chosen, levels, title):
     height = (high[1] - low[1]) * scale
     to = lambda p: np.stack([(p[..., 0] - low[0]) * scale + 20, height - (p[..., 1] - low[1]) * scale + 40], axis=-1)  # noqa: E731
     parts, names = [label(title, 15, 20, 24), shape(to(room.corners), 'fill="#f6f4ef" stroke="#555" stroke-width="2"')], []
-    for surface in design.surfaces.values():
+    for surface in sorted(design.surfaces.values(), key=lambda s: -s.area):  # small ones on top
         for p in surface.polygons:
             corners = to(p.corners)
-            # A goal as large as the room would cover all others.
-            style = 'fill="none" stroke="#5a8a63" stroke-dasharray="6 4"' if p is room else 'fill="#cfe3d2" stroke="#5a8a63"'
+            # A goal about as large as the room would hide the room.
+            large = abs(p.vector()[2]) > 0.5 * abs(room.vector()[2])
+            style = 'fill="none" stroke="#5a8a63" stroke-dasharray="6 4"' if large else 'fill="#cfe3d2" stroke="#5a8a63"'
             parts.append(shape(corners, style))
         size, (x, y) = np.ptp(corners, axis=0), [corners[:, 0].min(), corners[:, 1].max()]
         if size[0] > 6.2 * len(surface.name) and size[1] > 16:

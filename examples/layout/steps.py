@@ -298,25 +298,36 @@ class Steps:
                 stream.write(svg)
             page.heading(title)
             page.figure(svg)
+            page.note(self.load(levels))
             plan = self.timed(f"plan {s}", lambda: self.falsecolor(s, scene))  # noqa: B023
             if plan:
                 page.figure(plan)
+                page.note(f"The maintenance factor of {d.maintenance:g} is in the light of the luminaires.")
         page.heading("Planned against found")
         page.add(table(self.head(), list(self.table_rows()), 3 if d.scenes else 2))
         page.note(f"Planned: by the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard "
                   f"error {self.matrix_error():.1%}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
                   f"standard error. A goal is met if what is found keeps it within {TOLERANCE:.0%}, a limit of UGR within .1.")
         page.heading("Luminaires")
-        page.add(table(["number", "luminaire", "x", "y", "z", "turn", *(s.name or "level" for s in d.all_scenes())], list(self.lamp_rows()), 2))
+        page.add(table(["number", "luminaire", "x", "y", "z", "turn", "aim", *(s.name or "level" for s in d.all_scenes())], list(self.lamp_rows()), 2))
         page.note(f"Scene text: {', '.join(os.path.basename(f) for f in self.files)}. Seconds: "
                   + ", ".join(f"{k} {v:.1f}" for k, v in self.seconds.items()) + ".")
         with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8") as stream:
             stream.write(page.html())
 
+    def load(self, levels):
+        """How many luminaires of each kind, and the watts on the floor."""
+        kinds = [self.candidates[j].luminaire for j in self.layout.chosen]
+        each = [f"{kinds.count(i)} {l.name} of {l.watts:g} W" for i, l in enumerate(self.design.luminaires) if i in kinds]
+        area = max((p.vector()[2] for p in self.polygons), default=0) / self.design.units**2
+        share = f": {self.scene_watts(levels) / area:.1f} W/m2 on {area:.0f} m2" if area > 0 else ""
+        return (", ".join(each) or "No luminaire") + share + "."
+
     def lamp_rows(self):
         for n, j in enumerate(self.layout.chosen):
             c = self.candidates[j]
             yield [str(n + 1), self.design.luminaires[c.luminaire].name, *(f"{v:.3f}" for v in c.position), f"{c.turn:g}",
+                   " ".join(f"{v + 0.0:.2g}" for v in c.aim),
                    *(f"{levels[n]:.0%}" for levels in self.layout.levels)]
 
 
@@ -330,7 +341,7 @@ def shown(goal, value, error=False):
 
 def deviation_text(planned, found):
     if planned.goal.kind == "ugr":
-        return f"{planned.value - found.value:+.1f}"
+        return f"{planned.value - found.value:+.2f}"
     if planned.goal.kind == "uniformity":
         return f"{planned.value - found.value:+.3f}"
     return f"{planned.value / found.value - 1:+.1%}" if found.value > 0 else "-"
