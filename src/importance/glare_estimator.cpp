@@ -103,6 +103,12 @@ struct GlareEstimator::View {
 struct GlareEstimator::Source {
   SurfaceId surface;
   std::array<SeenGlare, kSets> seen{};
+  size_t looks = 0;                      // in all sets
+  double squares = 0, angleSquares = 0;  // sums over looks: of their light, cd2/m4 sr2; of their solid angles
+  double lightAngles = 0;                // sum of light x solid angle
+  double indirect = 0;                   // sum of indirect light, cd/m2 sr
+
+  void add(const Look& look, const Gaze& gaze);
 
   // The mean over all sets except `leftOut`; kSets: over all sets.
   SeenGlare mean(size_t leftOut = kSets) const {
@@ -111,8 +117,33 @@ struct GlareEstimator::Source {
       if (k != leftOut) sum += seen[k];
     return sum * (1. / static_cast<double>(leftOut < kSets ? kSets - 1 : kSets));
   }
+  double luminanceError() const;
   GlareSource answer(const Gaze& gaze) const;
 };
+
+void GlareEstimator::Source::add(const Look& look, const Gaze& gaze) {
+  const SeenGlare one = look.seen(gaze);
+  seen[look.set] += one;
+  ++looks;
+  squares += one.light * one.light;
+  angleSquares += one.solidAngle * one.solidAngle;
+  lightAngles += one.light * one.solidAngle;
+  indirect += look.indirect * one.solidAngle;
+}
+
+// Standard error of the luminance. If only one set sees the source, leaving out that set leaves no luminance,
+// so that the error follows from the spread of the directions of that set. The light of a single direction is
+// exact but for the indirect light of one path, whose error is about as large as that light.
+double GlareEstimator::Source::luminanceError() const {
+  const auto sees = [](const SeenGlare& one) { return one.solidAngle > 0; };
+  if (std::ranges::count_if(seen, sees) != 1)
+    return jackknifeError(kSets, [&](size_t k) { return mean(k).luminance(); });
+  const double solidAngle = std::ranges::find_if(seen, sees)->solidAngle;
+  if (looks == 1) return indirect / solidAngle;
+  const double luminance = mean().luminance(), n = static_cast<double>(looks);
+  const double spread = squares - 2 * luminance * lightAngles + luminance * luminance * angleSquares;
+  return std::sqrt(std::max(0., spread) * n / (n - 1)) / solidAngle;
+}
 
 GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   const SeenGlare all = mean();
@@ -120,7 +151,7 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   source.surface = surface;
   source.direction = all.direction();
   source.luminance = all.luminance();
-  source.luminanceError = jackknifeError(kSets, [&](size_t k) { return mean(k).luminance(); });
+  source.luminanceError = luminanceError();
   source.solidAngle = all.solidAngle;
   source.solidAngleError = jackknifeError(kSets, [&](size_t k) { return mean(k).solidAngle; });
   source.positionIndex = all.positionIndex(gaze);
@@ -240,7 +271,7 @@ void GlareEstimator::addLamps(const View& view, Sources& sources) const {
   for (const Look& look : view.looks) {
     if (!look.toLamp || !isLamp(look.surface)) continue;
     Source& lamp = lamps.try_emplace(look.surface, Source{look.surface}).first->second;
-    lamp.seen[look.set] += look.seen(view.gaze);
+    lamp.add(look, view.gaze);
   }
   for (const auto& [surface, lamp] : lamps) sources.push_back(lamp);
 }
@@ -263,9 +294,8 @@ void GlareEstimator::addBright(const View& view, double threshold, Sources& sour
         found.push_back({kNone});
         shares.emplace_back();
       }
-      const SeenGlare seen = looks[i]->seen(view.gaze);
-      found[groups[i]].seen[looks[i]->set] += seen;
-      shares[groups[i]][looks[i]->surface] += seen.light;
+      found[groups[i]].add(*looks[i], view.gaze);
+      shares[groups[i]][looks[i]->surface] += looks[i]->luminance() * looks[i]->solidAngle;
     }
     for (size_t g = 0; g < found.size(); ++g) {
       found[g].surface =

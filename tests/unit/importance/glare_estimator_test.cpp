@@ -280,6 +280,24 @@ double trueOverStated(const std::vector<GlareAnswer>& answers, double GlareIndic
   return values.standardError() * std::sqrt(static_cast<double>(answers.size()) / squares.mean());
 }
 
+// If only one set sees a region, leaving out that set leaves no luminance: 7/8 of the luminance was stated as
+// its error.
+TEST(GlareEstimator, LuminanceThatOneSetSeesHasItsOwnError) {
+  const SphereSetting setting = roomWithLamp();
+  SphereOptions options = setting.options.sphere;
+  options.baseDirections = 48;
+  options.glare.threshold = 700;  // near the luminance of the brightest walls: single directions exceed it
+  Sample shares;
+  for (options.rotation = 1; options.rotation <= 12; ++options.rotation)
+    for (const GlareSource& source :
+         glareIn(setting, V3d(1.7, .6, 1.2), V3d(0, 1, .1), options).sources)
+      if (std::abs(source.solidAngleError / source.solidAngle - 1) < 1e-6)  // seen by one set
+        shares.add(source.luminanceError / source.luminance);
+  ASSERT_GE(shares.count(), 3);
+  EXPECT_GT(shares.mean(), .005);
+  EXPECT_LT(shares.mean(), .5);
+}
+
 // The ratio of 50 answers is known to 10%.
 TEST(GlareEstimator, StatesItsErrors) {
   const SphereSetting setting = roomWithLamp();
