@@ -89,7 +89,8 @@ class MeshReader {
 
   uint32_t word() { return static_cast<uint32_t>(input_.integer(4)); }
 
-  // Vertices of patches without normals or (u,v) get zeros, which are codes of neither a normal nor of u.
+  // If a patch has no normals or no (u,v), zeros are stored for its vertices. A zero means that the vertex
+  // has none, because neither a normal nor a u has the code 0.
   void vertices(int has) {
     const size_t before = mesh_.positions.size(), after = before + patchVertices_;
     for (uint32_t i = 0; i < patchVertices_; ++i) {

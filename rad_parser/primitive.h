@@ -48,7 +48,7 @@ bool findType(std::string_view name, Type& type);
 // The most similar type for a misspelt name, as the end of a message (see NearestName::hint()).
 std::string nearestType(std::string_view name);
 
-// source to mesh; all other types are modifiers, which other primitives can name
+// Surfaces come first in the enumeration. All other types are modifiers, which other primitives can name.
 inline bool isSurface(Type type) { return type <= Type::mesh; }
 inline bool isMixture(Type type) { return Type::mixfunc <= type && type <= Type::mixtext; }
 

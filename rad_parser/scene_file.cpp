@@ -290,7 +290,8 @@ class SceneReader {
     builder_.add(p);
   }
 
-  // The probable mistake if modifier_ is undefined and no type follows it, as the end of a message.
+  // The end of the error message for an undefined modifier_ that no type follows. It suggests what the user's
+  // mistake probably was.
   std::string whyNoPrimitive(Place place) const {
     const Description& description = builder_.description();
     const bool first =

@@ -463,9 +463,9 @@ class Expander {
 
   const CompileInput& input_;
   Expansion out_;
-  std::deque<Scope> scopes_;                             // never moved, because arguments point to them
-  std::unordered_map<const Definition*, Id> variables_;  // kNone while a variable is being compiled
-  std::map<std::string, uint32_t> instances_;  // frames by definition and by functions among the arguments
+  std::deque<Scope> scopes_;                              // never moved, because arguments point to them
+  std::unordered_map<const Definition*, Id> variables_;   // kNone while a variable is being compiled
+  std::map<std::string, uint32_t> instances_;             // frames, by definition and functions passed to it
   std::map<std::string, uint32_t> realArgumentMessages_;  // by place
   size_t expansions_ = 0;
   int depth_ = 0;

@@ -127,7 +127,7 @@ double fractalNoise3(double x, double y, double z) {
   constexpr std::array<double, 8> kShare = {1, 1. / 2, 1. / 2, 1. / 4, 1. / 2, 1. / 4, 1. / 4, 1. / 8};
   for (int64_t half = units / 2; half > 0; half /= 2) {
     int octant = 0;
-    int64_t nearest = origin;       // seed of the corner common to octant and cube
+    int64_t nearest = origin;       // seed of the corner that the octant shares with the cube
     std::array<int64_t, 3> inward;  // change of the seed along half an edge from that corner, by axis
     for (int i = 0; i < 3; ++i) {
       const bool far = offset[i] > half;
@@ -140,7 +140,7 @@ double fractalNoise3(double x, double y, double z) {
       }
     }
     // sum[m] is the sum of the values at the corners of an edge, a face or the cube: the one that extends
-    // from the corner common to octant and cube, along the axes whose bits are set in m.
+    // from the corner that the octant shares with the cube, along the axes whose bits are set in m.
     std::array<double, 8> sum;
     for (int m = 0; m < 8; ++m) sum[m] = corner[m ^ octant];
     for (int bit = 1; bit < 8; bit *= 2) {

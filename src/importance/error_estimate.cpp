@@ -151,9 +151,10 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     if (to && !samples.empty()) to->add(samples[0].direction, samples[0].solidAngle, squares);
     return squares;
   }
-  // If an edge crosses the region, only the cells on the edge contribute, about n^1/2 of n. For an object
-  // smaller than the spacing of directions, which few of them find, even spreading does not reduce the
-  // variance.
+  // Factor by which even spreading reduces the variance. If an edge crosses the region, only the cells on the
+  // edge contribute to the variance: about n^1/2 of n cells. For an object smaller than the spacing of
+  // directions, there is no reduction. Therefore n is the effective number of directions that sharing()
+  // returns, which is small if few directions find the object.
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
   for (const DirectionSample& s : samples)
     if (to)

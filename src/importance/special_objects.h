@@ -43,10 +43,11 @@ RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
 // 4 pi a^2 sr, so that about 16 directions, four across, hit it. Raising it by 30% changes the time by +23%
 // (Voronoi cells; noise: error 5%, time 4%). Rougher balls show no images of light sources (glints.h).
 inline constexpr double kSharpRoughness = .0065;
-// Irregularity of glass panes. It is low because objects behind a pane look as large as without it, and its
-// reflections are faint. A pane gets 64 directions per sr, a few hundred at most; with the irregularity of a
-// mirror it would take all directions. Changing it by 30% has no effect beyond noise (Voronoi cells; noise:
-// error 1%, time 5%).
+// The value of irregularity() for glass panes. It is low because objects behind a pane look as large as
+// without it, and its reflections are faint. A pane gets 64 directions per sr, so that even the largest gets
+// only a few hundred. With the irregularity of a mirror it would take all directions. Changing the value by
+// 30% changes error and time by less than the noise of the measurement (case "Voronoi cells"; noise: 1% of
+// the error, 5% of the time).
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
 // Less irregular objects are treated as diffuse: derived. At this threshold they would get 16 directions per
 // sr, a tenth of the density of the default base directions.

@@ -12,7 +12,8 @@
 
 namespace rsphere {
 
-// A region that gets extra directions, such as a special object or the image of a light source in one.
+// A region of the sphere of directions that gets extra directions. Examples are the silhouette of a special
+// object (special_objects.h), and that of the image of a light source in a special object.
 struct Target {
   Silhouette silhouette;
   double density = 0;      // extra directions per sr of its region

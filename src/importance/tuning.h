@@ -55,8 +55,9 @@ struct DiffuseGlances {
   // Distances below this fraction of the mean length of light paths hardly increase the number of joins. With
   // .1 or .3, no effect beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
-  // Light paths for each base direction, traced once for all points. With 256, the error is 10% smaller, and
-  // the start takes .4 s instead of .1 s.
+  // The number of light paths, as a multiple of the number of base directions (-Sn). They are traced once,
+  // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
+  // of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
   // Accuracy (-Sa) down to which this number of light paths suffices. Below, their number grows with the
   // inverse square of the accuracy.
@@ -297,10 +298,11 @@ struct Pictures {
   // Rows are traced in this number of sweeps, each of which skips rows evenly. All sweeps then take about the
   // same time, so that progress reports are right. It does not affect the picture.
   static constexpr int kSweeps = 16;
-  // Two pixels share light if the distance between their points is at most this fraction of the distance from
-  // the eye, and the height of one point over the other's plane at most this fraction of the distance between
-  // them: chosen by experiment. Reducing it by 30% changes the error by +25%, raising it by 30% by -13%
-  // (picture from point with 1% of the pixels, where edges weigh more; noise: error 2%, time 6%).
+  // Two pixels share light if their surface points are close together and nearly in one plane. The limit on
+  // the distance between the points is this fraction of the distance from the eye. The limit on the height of
+  // one point over the other's plane is this fraction of the distance between them. Chosen by experiment. If
+  // the fraction is 30% lower, the error is 25% larger; if it is 30% higher, the error is 13% smaller (case
+  // "picture from point" with 1% of the pixels, which makes edges weigh more; noise: 2% of the error).
   RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 

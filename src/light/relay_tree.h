@@ -1,6 +1,6 @@
 #pragma once
-// A bounding volume hierarchy of relays (relays.h). It finds the relays that a beam of light may reach in a
-// time that grows with the logarithm of their number.
+// A bounding volume hierarchy of relays (relays.h). It finds the relays that a beam of light may reach. The
+// time of a search grows with the logarithm of the number of relays.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -38,7 +38,7 @@ class RelayTree {
   struct Node {
     Bounds bounds;
     uint32_t begin = 0, end = 0;  // range in numbers_
-    uint32_t second = 0;  // index of the second child; the first child follows the node. 0: a leaf
+    uint32_t second = 0;          // index of the second child; the first child follows the node. 0: a leaf
   };
 
   uint32_t build(const std::vector<Bounds>& relays, uint32_t begin, uint32_t end);

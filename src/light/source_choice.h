@@ -16,10 +16,11 @@ class SourceChoice {
   // Keeps no reference to the scene or to its lights.
   SourceChoice(const Scene& scene, const LightSources& lights);
 
-  // Computes the weight of each of these sources (given as numbers of LightIds) at a point. A weight
-  // approximates the irradiance (W/m2, of brightness) from the source on a surface with the normal `front`
-  // (unit), or from all sides if front is 0. It is above 0 wherever LightSources::sample() can return a
-  // sample for the same front, so that approximation errors increase the variance but cause no bias.
+  // Computes the weight of each source at a point, and returns the sum of the weights. sources: numbers of
+  // LightIds. A weight approximates the brightness of the irradiance (W/m2) from the source on a surface with
+  // the normal `front` (unit), or from all sides if front is 0. It is above 0 wherever LightSources::sample()
+  // can return a sample for the same front. Errors of the approximation therefore increase the variance, but
+  // cause no bias.
   double weigh(const V3d& point, const V3d& front, std::span<const uint32_t> sources,
                std::vector<double>& weights) const;
 

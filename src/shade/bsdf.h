@@ -40,11 +40,10 @@ class DirectedScattering {
   // Whether views on this side use the data with exchanged directions.
   bool turned(const V3d& view) const { return transmits() && (view.z > 0) != incidentFront_; }
 
-  // A cell of the data: its number; its value, without the diffuse part; and its projected solid angle (sr),
-  // the smaller one of those for the two directions.
+  // A cell of the data for a pair of directions: the view and the other direction.
   struct Cell {
-    Tristimulus value;  // 1/sr
-    double projectedSolidAngle = 0;
+    Tristimulus value;               // 1/sr, without the diffuse part
+    double projectedSolidAngle = 0;  // sr: of the view's cell or of the other direction's, the smaller one
     uint64_t number = 0;
   };
   // The value is 0 if one of the directions is outside the range of the data.
@@ -61,9 +60,10 @@ class DirectedScattering {
     double finest = 0, coarsest = 0;  // 0: no data
   };
   virtual Resolution resolution(const V3d& view) const = 0;
-  // Prepares albedo() and sample() for views from the side without data, for which directions are exchanged
-  // (see turned()). Returns false if the data do not determine the scattering there; the albedo is then 0 for
-  // these views. That is so for isotropic trees, because they store one angle less.
+  // Prepares albedo() and sample() for views with turned(): views from the side without data, which use the
+  // data of the other side with the view and the other direction exchanged. Returns false for isotropic
+  // tensor trees. They store one angle less, so that exchanged directions do not determine the scattering;
+  // the albedo of these views is then 0.
   virtual bool prepareTurned() = 0;
   // The projected solid angle (sr) of the smallest cell, and the largest albedo of any view.
   double finestCell() const { return finestCell_; }

@@ -18,7 +18,8 @@ struct Caches {
   std::unique_ptr<IrradianceField> field;
   // Light at the second and later diffuse surfaces; null if paths are followed instead (-aa 0, -ab 1).
   std::unique_ptr<CoarseSolution> coarse;
-  // Places at which gathers for the caches aim rays. They are the same for all tracers that use the caches.
+  // Final gathers that fill the caches aim some of their rays at these places. All tracers that use the
+  // caches share them.
   Aims aims;
 };
 

@@ -24,8 +24,8 @@ constexpr size_t kProbes = 32;
 // Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
 // wall.
 constexpr int kSurfacesInTheWay = 6;
-// Polygons larger than the width of a region divided by this are ignored when it is divided, because the
-// division would gain little.
+// To decide whether to divide a region, only polygons are considered whose size times this factor is at most
+// the region's width. For larger polygons, division would gain little.
 constexpr double kWorthDividing = .25;
 // Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
 // boxes are tested first.

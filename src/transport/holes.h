@@ -13,10 +13,11 @@ namespace rsphere {
 // Whether a surface can be part of a wall.
 using IsWall = FunctionRef<bool(const Surface&)>;
 
-// The bounding rectangles of holes of at least this area (square world units), the largest first. Their edges
-// are moved to corners of the wall's polygons that are less than a cell away (tuning::Holes::kCells).
-// Ignored: holes covering little of their bounding rectangle or open on most sides, polygons below the given
-// area, all but the largest walls, and the contents of instances. bounds: of the scene.
+// Finds the holes in walls with a grid on each wall (tuning::Holes::kCells), and returns their bounding
+// rectangles, the largest first. Edges of the rectangles are moved to corners of the wall's polygons that are
+// less than a grid cell away. Holes and polygons below leastArea (square world units) are ignored. So are all
+// but the largest walls, the contents of instances, and holes that are open on most sides or cover little of
+// their bounding rectangle. bounds: the scene's bounding box.
 std::vector<Rectangle> holesOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall);
 
 }  // namespace rsphere

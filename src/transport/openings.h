@@ -15,7 +15,8 @@
 
 namespace rsphere {
 
-// Panes, or a hole, in a rectangle whose normal points to the dark side.
+// Panes or a hole, with their bounding rectangle. Its normal points to the dark side: the side that receives
+// light through the opening.
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;

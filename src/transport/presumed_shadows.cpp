@@ -99,8 +99,8 @@ bool PresumedShadows::hide(LightId source, const V3d& point, const V3d& directio
     first = tracer_.nearest(origin + passed * onward, onward);
     if (first.surface == kNone) return false;
     if (first.surface != light.surface && isOpaque(first)) {
-      // rtrace misses surfaces this near to the face of the cube, because it searches on the other side of
-      // the face.
+      // For a distant source, the line starts on a face of the scene's cube (middleOfCell()). rtrace misses
+      // surfaces this near to that face, because it searches on the other side of the face.
       constexpr double kLost = 1;  // world units
       if (light.isDistant() && passed + first.distance <= kLost) return false;
       break;

@@ -49,7 +49,7 @@ struct RayAnswer {
   SurfaceName surface;                              // s
   std::string_view modifier = "*", material = "*";  // m M
   double rayWeight = 1;                             // w
-  Coefficient contribution{1};  // W  factor on its value in that of the primary ray; times value: V
+  Coefficient contribution{1};  // W  factor on `value` in the primary ray's value. V is the product W v
   double solidAngle = 0;        // w with -Sd, sr
 };
 

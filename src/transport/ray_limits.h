@@ -51,10 +51,11 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// Starts counting the descendants of a gather's ray, if light is interpolated. There are two exceptions:
-// - If the descendants of the primary ray are limited, the existing count for the primary ray continues.
-// - For a patch, the existing count for all its rays continues; only the used patches are counted for each
-//   ray.
+// Starts a new count of descendants for one ray of a final gather, if light is interpolated. There are two
+// exceptions:
+// - If the descendants of the primary ray are limited, the count for the primary ray continues.
+// - If the gather is for a patch of the coarse solution, the count for all rays of this gather continues.
+//   Only the number of other patches that are used (Descendants::patches) starts again with each ray.
 inline void countDescendants(const PathSettings& settings, PathState& state, const PathContext& ray) {
   if (state.links)
     state.descendants.patches = 0;

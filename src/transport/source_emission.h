@@ -11,7 +11,8 @@
 
 namespace rsphere {
 
-// Shared by all threads; constant. Keeps references.
+// Samples where, and in which direction, light leaves the sources. Shared by all threads, because it
+// never changes. Keeps references to the scene and to `surfaces`.
 class SourceEmission {
  public:
   // paths: total number of paths from all sources.
