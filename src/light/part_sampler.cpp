@@ -69,12 +69,6 @@ std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const S
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
 }
 
-// The region around a part's middle over which its sample is jittered.
-SourcePart shrunk(const SourcePart& p, double jitter) {
-  const double s = (1 - jitter) / 2 * (p.s1 - p.s0), t = (1 - jitter) / 2 * (p.t1 - p.t0);
-  return {p.s0 + s, p.s1 - s, p.t0 + t, p.t1 - t};
-}
-
 // True if a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
 // have unbounded variance. towards: the vector from the point to the part's middle.
 bool isNear(const PlaneLight& plane, const SourcePart& part, const V3d& towards) {
@@ -353,17 +347,17 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   split(SourcePart{}, divided ? kMostParts : 1, halfLength, 0, allowed_, point_, at, use);
 }
 
-// Samples a part of a parallelogram uniformly by solid angle.
+// Samples a part of a parallelogram uniformly by solid angle: all of it, however small the jitter is. The
+// solid angle of a near part is unevenly distributed over its area, so that its middle would be too bright.
 void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
   // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
   // would then fill half the sky.
   if (height <= kSamePlace) return;
-  const std::array<V3d, 4> whole = cornersOf(source_.center, plane, part);
-  const double below = triangleSolidAngle(whole[0], whole[1], whole[2], point_);
-  const double above = triangleSolidAngle(whole[0], whole[2], whole[3], point_);
+  std::array<V3d, 4> aims = cornersOf(source_.center, plane, part);
+  const double below = triangleSolidAngle(aims[0], aims[1], aims[2], point_);
+  const double above = triangleSolidAngle(aims[0], aims[2], aims[3], point_);
   const double omega = std::abs(below + above);
-  std::array<V3d, 4> aims = cornersOf(source_.center, plane, shrunk(part, jitter_));
   for (V3d& corner : aims) corner = (corner - point_).normalized();
   const double u = random_.uniform() * omega, v = random_.uniform();
   const bool first = u < std::abs(below);

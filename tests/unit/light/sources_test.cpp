@@ -402,5 +402,13 @@ TEST(Sources, RightBeforeALargeSource) {
   }
 }
 
+// Five centimetres beside a window of 4 x 1.5 m, on the wall that it stands on. rcontrib's default is -dj .9.
+TEST(Sources, BesideALargeWindowWithLittleJitter) {
+  const Scene scene = sceneOf(light("polygon p\n0\n0\n12 0 -2 0 0 2 0 0 2 1.5 0 -2 1.5"));
+  const double half = perpendicularCorner(1.5, 2, .05);
+  for (const double jitter : {.3, .9, 1.})
+    expectMean(meanIrradiance(scene, V3d(.05, 0, 0), kUp, {.02, jitter}, 4000), 2 * kPi * half, 1.03);
+}
+
 }  // namespace
 }  // namespace rsphere
