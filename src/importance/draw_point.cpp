@@ -99,9 +99,13 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
 struct Pixels {
   SeenSurfaces seen;
   PixelLight indirect, gloss, direct;
-  std::vector<Imath::V3f> ownDirect;  // direct light before smoothing
-  std::vector<V3d> rest, pattern;
-  std::vector<bool> sharesGloss, sharesDirect, isTraced;
+  // What the ray through the middle of a pixel finds.
+  struct Middle {
+    V3d rest{0, 0, 0}, pattern{1, 1, 1};
+    Imath::V3f direct{0, 0, 0};  // before smoothing
+    bool sharesGloss = false, sharesDirect = false, isTraced = false;
+  };
+  std::vector<Middle> middles;
 
   explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}} {
     seen.pixels.resize(map.count());
@@ -109,12 +113,7 @@ struct Pixels {
       component->light.assign(map.count(), Imath::V3f(0, 0, 0));
       component->known.assign(map.count(), 0);
     }
-    ownDirect.assign(map.count(), Imath::V3f(0, 0, 0));
-    rest.assign(map.count(), V3d(0, 0, 0));
-    pattern.assign(map.count(), V3d(1, 1, 1));
-    sharesGloss.assign(map.count(), false);
-    sharesDirect.assign(map.count(), false);
-    isTraced.assign(map.count(), false);
+    middles.resize(map.count());
   }
   // Pixels that are not set are black.
   void set(size_t pixel, const PixelSample& sample, bool hasIndirect) {
@@ -123,13 +122,10 @@ struct Pixels {
     indirect.known[pixel] = hasIndirect ? 1 : 0;
     gloss.light[pixel] = Imath::V3f(sample.gloss);
     gloss.known[pixel] = sample.sharesGloss ? 1 : 0;
-    direct.light[pixel] = ownDirect[pixel] = Imath::V3f(sample.direct);
+    direct.light[pixel] = Imath::V3f(sample.direct);
     direct.known[pixel] = sample.sharesDirect ? 1 : 0;
-    rest[pixel] = sample.rest;
-    pattern[pixel] = sample.pattern;
-    sharesGloss[pixel] = sample.sharesGloss;
-    sharesDirect[pixel] = sample.sharesDirect;
-    isTraced[pixel] = true;
+    middles[pixel] = {sample.rest,        sample.pattern,      direct.light[pixel],
+                      sample.sharesGloss, sample.sharesDirect, true};
   }
   // The light of a sample with all components. Those that the sample lacks come from the given pixel.
   V3d complete(const PixelSample& sample, size_t pixel) const {
@@ -140,17 +136,18 @@ struct Pixels {
   }
   // The sample of the ray through the middle of the pixel.
   PixelSample own(size_t pixel) const {
+    const Middle& middle = middles[pixel];
     PixelSample own;
-    own.rest = rest[pixel];
-    own.direct = V3d(ownDirect[pixel]);
-    own.pattern = pattern[pixel];
+    own.rest = middle.rest;
+    own.direct = V3d(middle.direct);
+    own.pattern = middle.pattern;
     own.seen.material = seen.pixels[pixel].material;
-    own.sharesGloss = sharesGloss[pixel];
+    own.sharesGloss = middle.sharesGloss;
     return own;
   }
   V3d value(size_t pixel) const {
     PixelSample sample = own(pixel);
-    if (sharesDirect[pixel]) sample.direct = V3d(direct.light[pixel]);
+    if (middles[pixel].sharesDirect) sample.direct = V3d(direct.light[pixel]);
     return complete(sample, pixel);
   }
 };
@@ -297,22 +294,22 @@ void Painter::gatherWhereUnknown(Pixels& pixels) {
 // smoothing may remove.
 std::vector<bool> noisyShadows(const Pixels& pixels) {
   const int width = pixels.seen.width, height = pixels.seen.height;
-  std::vector<bool> marked(pixels.sharesDirect.size(), false);
+  std::vector<bool> marked(pixels.middles.size(), false);
   const auto compare = [&](size_t here, int column, int row) {
     if (row >= height || (column >= width && !pixels.seen.wraps)) return;
     const size_t there =
         static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
-    if (!pixels.sharesDirect[there] ||
+    if (!pixels.middles[there].sharesDirect ||
         !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
       return;
-    const Imath::V3f a = pixels.ownDirect[here] + pixels.indirect.light[here],
-                     b = pixels.ownDirect[there] + pixels.indirect.light[there], apart = b - a;
+    const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
+                     b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
     if (apart.length() > Tuning::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
   };
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
       const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
-      if (!pixels.sharesDirect[here]) continue;
+      if (!pixels.middles[here].sharesDirect) continue;
       for (int step = 1; step <= 2; ++step) {
         compare(here, column + step, row);
         compare(here, column, row + step);
@@ -329,7 +326,7 @@ void Painter::repeatDirect(Pixels& pixels) {
     for (int column = 0; column < map_.width(); ++column) {
       const size_t pixel = at(column, row);
       if (!marked[pixel]) continue;
-      V3d sum(pixels.ownDirect[pixel]);
+      V3d sum(pixels.middles[pixel].direct);
       int count = 1;
       for (int repeat = 0; repeat < Tuning::kRepeats; ++repeat) {
         const auto sample =
@@ -338,7 +335,7 @@ void Painter::repeatDirect(Pixels& pixels) {
         sum += sample->direct;
         ++count;
       }
-      pixels.direct.light[pixel] = pixels.ownDirect[pixel] = Imath::V3f(sum / count);
+      pixels.direct.light[pixel] = pixels.middles[pixel].direct = Imath::V3f(sum / count);
     }
 }
 
@@ -377,7 +374,7 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
     if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) continue;
     const size_t pixel = at(x, y);
     if (mayShare(sample.seen, pixels.seen.pixels[pixel], kOfIndirect) &&
-        sample.sharesGloss == pixels.sharesGloss[pixel])
+        sample.sharesGloss == pixels.middles[pixel].sharesGloss)
       return pixel;
   }
   return std::nullopt;
@@ -398,7 +395,7 @@ std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, si
 
 V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
   const size_t pixel = at(column, row);
-  if (pixels.isTraced[pixel]) rays.add(pixels.complete(pixels.own(pixel), pixel));
+  if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
   for (size_t place = 0; place < Tuning::kAround.size(); ++place) {
     if (place == Tuning::kCorners && !rays.differ()) break;
     if (const auto value = around(pixels, column, row, place)) rays.add(*value);

@@ -117,7 +117,8 @@ VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<
   Box3d box;
   for (const LightVertex& v : vertices) box.extendBy(v.point());
   if (!vertices.empty()) middle_ = box.center();
-  for (Numbers* const size : {&halfX_, &halfY_, &halfZ_, &halfAlong_, &spread_})
+  for (Numbers* const size :
+       {&boxes_.half.x, &boxes_.half.y, &boxes_.half.z, &boxes_.spread, &normals_.halfAlong})
     size->fill(1);  // for unused elements
   for (size_t i = 0; i < ends_.size(); ++i) measure(i);
 }
@@ -131,6 +132,12 @@ std::vector<Box3d> VertexClusters::boxesOf(std::span<const LightVertex> vertices
     for (; first < end; ++first) box.extendBy(vertices[first].point());
   }
   return boxes;
+}
+
+void VertexClusters::VectorArrays::set(size_t cluster, const V3d& to) {
+  x[cluster] = static_cast<float>(to.x);
+  y[cluster] = static_cast<float>(to.y);
+  z[cluster] = static_cast<float>(to.z);
 }
 
 void VertexClusters::measure(size_t i) {
@@ -148,19 +155,14 @@ void VertexClusters::measure(size_t i) {
   // Enlarged by the rounding error of single precision, and above 0.
   const V3d half =
       .5 * box.size() + V3d(kRounding * (std::sqrt(width2_) + box.size().length() + at.length()));
-  x_[i] = static_cast<float>(at.x);
-  y_[i] = static_cast<float>(at.y);
-  z_[i] = static_cast<float>(at.z);
-  halfX_[i] = static_cast<float>(half.x);
-  halfY_[i] = static_cast<float>(half.y);
-  halfZ_[i] = static_cast<float>(half.z);
-  spread_[i] = static_cast<float>(half.length2() / 3);
-  halfAlong_[i] =
+  boxes_.center.set(i, at);
+  boxes_.half.set(i, half);
+  boxes_.spread[i] = static_cast<float>(half.length2() / 3);
+  normals_.mean.set(i, axis);
+  normals_.halfAlong[i] =
       static_cast<float>(half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z));
-  axisX_[i] = static_cast<float>(axis.x);
-  axisY_[i] = static_cast<float>(axis.y);
-  axisZ_[i] = static_cast<float>(axis.z);
-  sine_[i] = least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
+  normals_.sine[i] =
+      least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
 // Estimates the light from each cluster. An estimate is 0 only if all vertices of the cluster are hidden or
@@ -173,13 +175,15 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
              nz = static_cast<float>(to.normal.z);
   const float ax = std::abs(nx), ay = std::abs(ny), az = std::abs(nz);
   const auto width2 = static_cast<float>(width2_);
+  const auto& [center, half, spread] = boxes_;
+  const auto& [axis, halfAlong, sine] = normals_;
   for (size_t i = 0; i < kCount; ++i) {
-    const float x = x_[i] - px, y = y_[i] - py, z = z_[i] - pz;
+    const float x = center.x[i] - px, y = center.y[i] - py, z = center.z[i] - pz;
     const float square = x * x + y * y + z * z;
-    const float here = meanAbove(x * nx + y * ny + z * nz, halfX_[i] * ax + halfY_[i] * ay + halfZ_[i] * az);
-    const float there = meanAbove(-(x * axisX_[i] + y * axisY_[i] + z * axisZ_[i]),
-                                  halfAlong_[i] + sine_[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
-    const float away = square + spread_[i];
+    const float here = meanAbove(x * nx + y * ny + z * nz, half.x[i] * ax + half.y[i] * ay + half.z[i] * az);
+    const float there = meanAbove(-(x * axis.x[i] + y * axis.y[i] + z * axis.z[i]),
+                                  halfAlong[i] + sine[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
+    const float away = square + spread[i];
     weights[i] = power_[i] * (here / away) * (there / (away + width2));
   }
   if (!hidden_) return;

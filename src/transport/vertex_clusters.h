@@ -59,7 +59,23 @@ class VertexClusters {
   // the clusters of all groups.
   static constexpr size_t kGroup = 8;
   static_assert(kCount % kGroup == 0);
+  // One element for each cluster. Separate arrays allow weighing several clusters at a time (SIMD).
   using Numbers = std::array<float, kCount>;
+  struct VectorArrays {
+    Numbers x{}, y{}, z{};
+    void set(size_t cluster, const V3d& to);
+  };
+  // The box around a cluster's vertices.
+  struct Boxes {
+    VectorArrays center;  // relative to middle_
+    VectorArrays half;
+    Numbers spread{};  // approximate mean square distance of the vertices from the center
+  };
+  struct Normals {
+    VectorArrays mean;    // unit
+    Numbers halfAlong{};  // half the width of the box along the mean normal
+    Numbers sine{};       // sine of the largest angle between a normal and the mean; 1: no bound
+  };
 
   size_t firstOf(size_t cluster) const { return cluster > 0 ? ends_[cluster - 1] : 0; }
   void measure(size_t cluster);
@@ -70,13 +86,8 @@ class VertexClusters {
   std::optional<HiddenBoxes> hidden_;
   double width2_;
   V3d middle_{0, 0, 0};
-  // One element for each cluster. Separate arrays allow weighing several clusters at a time (SIMD).
-  Numbers x_{}, y_{}, z_{};  // center of its bounding box, relative to middle_
-  Numbers halfX_{}, halfY_{}, halfZ_{};
-  Numbers spread_{};                     // approximate mean square distance from the center
-  Numbers axisX_{}, axisY_{}, axisZ_{};  // mean normal (unit)
-  Numbers halfAlong_{};                  // half the width of the box along the mean normal
-  Numbers sine_{};   // sine of the largest angle between a normal and the mean; 1: no bound
+  Boxes boxes_;
+  Normals normals_;
   Numbers power_{};  // brightness of the diffusely reflected light, W
 };
 
