@@ -85,13 +85,16 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
             Tuning::kCoarserByLamps * Tuning::kLeastPatch,
             Tuning::kCoarserByLamps * Tuning::kFarPatch,
             Tuning::kRays * options.rays,
-            options.patchesAtFirst ? 1 : Tuning::kFewerRays,
+            options.patchesAtFirst ? 1. : 0.,
             1,
             options.patchesAtFirst ? Tuning::kCoarserByLamps * Tuning::kCoarserByLamps * Tuning::kLeastRays
                                    : Tuning::kLeastRays};
-  return {Tuning::kSpacing * finer, Tuning::kLeastPatch,
-          Tuning::kFarPatch,        Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
-          Tuning::kFewerRays,       Tuning::kMoreRays,
+  return {Tuning::kSpacing * finer,
+          Tuning::kLeastPatch,
+          Tuning::kFarPatch,
+          Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
+          0,
+          Tuning::kMoreRays,
           Tuning::kLeastRays};
 }
 

@@ -144,12 +144,9 @@ struct CoarseSolution {
   // - Using the patch's mean distance to its surroundings instead of the room's size gives patches below
   //   desks and in gaps so many rays that four daylit rooms take 1.3 to 3 times the time for the same error.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
-  // Bounds on the number of rays of a patch, relative to the usual number; by lamps, the upper bound is 1.
-  // Measured:
-  // - kFewerRays: with .1, the same error at -aa .05 takes 1.3 times the time.
-  // - kMoreRays: with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and
-  //   takes a sixth more time.
-  RSPHERE_TUNED(CoarseSolution, double, kFewerRays, .03);
+  // Upper bound on the number of rays of a patch, relative to the usual number; by lamps, it is 1. Measured:
+  // with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and takes a
+  // sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
