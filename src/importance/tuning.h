@@ -46,9 +46,9 @@ struct DiffuseGlances {
   // Glances for each base direction. They take most of the time of a point. The error is inversely
   // proportional to the square root of their number.
   RSPHERE_TUNED(DiffuseGlances, size_t, kPerDirection, 12);
-  // Cap on the glances at one point (about 100 MB), if there are fewer base directions. Also the cap on the
-  // light paths of all pools together (about 400 MB).
-  RSPHERE_TUNED(DiffuseGlances, size_t, kMost, 1 << 20);
+  // Limit on the memory for the glances at one point (about 100 MB), if there are fewer base directions, and
+  // for the light paths of all pools together (about 400 MB).
+  static constexpr size_t kMost = 1 << 20;
   // Joins for each base direction. With 4, the error is 5% larger and the time 2% shorter. With 16, no effect
   // beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 8);
@@ -154,11 +154,11 @@ struct Silhouettes {
   // the projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. With
   // 1.2, the error beside chrome is 30% larger, in the same time.
   static constexpr double kWidestHull = 1.5;
-  // Corners of the polygon around a circle: chosen by experiment. The polygon's area is 1.3% larger than the
-  // circle's. When searching for images on balls, light sources with more corners are replaced by squares
-  // around them. Changing it by 30% has no effect beyond noise (points beside chrome; noise: error below 1%,
-  // time 8%).
-  RSPHERE_TUNED(Silhouettes, int, kCorners, 16);
+  // Corners of the polygon around a circle: derived. The polygon's area is 1.3% larger than the circle's, so
+  // that 1.3% of the directions to it miss the object. When searching for images on balls, light sources with
+  // more corners are replaced by squares around them. Changing it by 30% has no effect beyond noise (points
+  // beside chrome; noise: error below 1%, time 8%).
+  static constexpr int kCorners = 16;
   // Cells along each edge of a face of the cube that lists the silhouettes near a direction: chosen by
   // experiment. Without cells, the search among 180 special objects took 18% of the time. The number only
   // affects the time. tests/bench/sensitivity does not vary it, because it is the size of a table.
@@ -174,10 +174,11 @@ struct ErrorEstimate {
   // .07% with 8192. In daylit rooms means are .1 to .2% too dark, with stated errors of .6 to 1%.
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0006);
   static constexpr double kUsualRays = 1024;
-  // Factor on the variance that is estimated from second differences of base directions: a compromise. The
+  // Factor on the variance that is estimated from second differences of base directions: derived. The
   // right value is .6 if all variance is due to straight edges, because evenly spread directions average out
-  // part of it, and 1 if all is due to the noise of paths.
-  RSPHERE_TUNED(ErrorEstimate, double, kEvenSet, .8);
+  // part of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most
+  // 15% too large and 11% too small.
+  static constexpr double kEvenSet = .8;
   // Smallest number of neighbours for second differences: derived. ownPartOfSecond() does not hold for fewer.
   static constexpr double kFewestAround = 4;
   // Factor like kEvenSet for directions to the parts of a light source: chosen by experiment. Differences
@@ -201,9 +202,9 @@ struct ErrorEstimate {
   // and no answer is. Changing it by 30% changes no answer.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
-  // direction in a target would represent: a compromise. The probability that n directions miss an obstacle
-  // covering the fraction s is (1 - s)^n, about a third for s = 1/n.
-  RSPHERE_TUNED(ErrorEstimate, double, kUnseen, .5);
+  // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction
+  // that it covers is 1/2 / (n + 1) (Bayes' theorem, with Jeffreys' prior for a probability).
+  static constexpr double kUnseen = .5;
   // The stated variance due to light vertices is at least this number of standard deviations of the spread of
   // their batches: chosen by experiment. It is the spread minus the part due to choosing vertices at random;
   // if the two are nearly equal, the difference may be 0 by chance. Where a tiny lamp lights a white room

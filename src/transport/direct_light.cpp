@@ -7,12 +7,12 @@
 
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::DirectLight;
+// Number of the brightest contributions that are always tested for shadows, whatever -dt is, as in RADIANCE.
+constexpr size_t kAlwaysTested = 2;
 
 // With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample is
 // then spread over more than half of its source.
@@ -280,7 +280,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   };
   size_t tested = 0;
   for (; tested < count; ++tested) {
-    if (threshold > 0 && tested >= Tuning::kAlwaysTested) {
+    if (threshold > 0 && tested >= kAlwaysTested) {
       const double ahead =
           scratch_.remaining[tested] - scratch_.remaining[std::min<size_t>(tested + lookAhead, count)];
       if (ahead < threshold * brightness(value)) break;

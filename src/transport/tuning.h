@@ -1,7 +1,6 @@
 #pragma once
 // The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance of light and the
-// computing time. Those of Interpolation and DirectLight::kAlwaysTested also affect the mean, as -aa and -dt
-// do.
+// computing time. Those of Interpolation also affect the mean, as -aa does.
 //
 // Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
 // best of some values that were tried on furnished rooms; the results of the others were not kept. The effect
@@ -49,9 +48,10 @@ struct Caps {
 // Patches of strong direct light, at which indirect rays are aimed (bright_spots.cpp).
 struct BrightSpots {
   // Number of particles traced from the sources; the same number is traced from distant sources through
-  // openings. Chosen by experiment. 80 particles find a spot that reflects a hundredth of the light. Changing
-  // it by 30% has no effect beyond noise (sensors by sun; noise: error 9%, time 5%).
-  RSPHERE_TUNED(BrightSpots, double, kParticles, 8192);
+  // openings. Derived: if all of them hit spots, a spot is hit by 128 on average, and its power is known
+  // within 9%, 1/sqrt(128). 80 particles find a spot that reflects a hundredth of the light. Changing it by
+  // 30% has no effect beyond noise (sensors by sun; noise: error 9%, time 5%).
+  static inline const double kParticles = 128. * Caps::kAimed;
   // A spot reflects at least this many times as much light per area as the mean of all surfaces. Chosen by
   // experiment. For light that enters through openings, the threshold is half of this, because few rays of a
   // patch of the coarse solution hit its spots. Measured in a sunlit classroom:
@@ -127,13 +127,6 @@ struct RadianceGuess {
   // which carry most of the light. Changing it by 30% has no effect beyond noise (points beside goal; noise:
   // error 4%, time 3%).
   RSPHERE_TUNED(RadianceGuess, double, kBright, 16);
-};
-
-// Next-event estimation (direct_light.cpp).
-struct DirectLight {
-  // Number of the brightest contributions that are always tested for shadows, regardless of -dt. Chosen by
-  // experiment. 1 and 3 have no effect beyond noise (picture of workshop; noise: error below 1%, time 5%).
-  RSPHERE_TUNED(DirectLight, size_t, kAlwaysTested, 2);
 };
 
 // The balance between shadow rays and samples of the lobe in the estimate of rough highlights of sources
