@@ -84,9 +84,9 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
   extrapolationError = 0;
   if (level > 0) {
     const double linear = std::abs(luminanceOf(result.perLength).dot(aside)) / level;
-    extrapolationError =
-        Tuning::kBeyond * std::max(linear, Tuning::kBeyond * static_cast<double>(aside.length2()) *
-                                               inverseReach * inverseReach);
+    const double margin = tuning::IrradianceField::kNoneAbove;
+    extrapolationError = margin * std::max(linear, margin * static_cast<double>(aside.length2()) *
+                                                       inverseReach * inverseReach);
   }
   for (int k = 0; k < 3; ++k) mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), kLeast * mean[k]);
   result.setMean(mean);

@@ -91,9 +91,9 @@ struct Holes {
 // Portals of daylight, at which indirect rays are aimed (find_openings.cpp, openings.cpp).
 struct Openings {
   // Panes and holes are ignored if their area is below this fraction of the largest face of the scene's box,
-  // because each opening costs time in each gather. Chosen by experiment. A door of 2 m2 is found in a scene
-  // of up to 1400 m. Changing it by 30% changes no answer.
-  RSPHERE_TUNED(Openings, double, kLeastArea, 1e-6);
+  // because each opening costs time in each gather. Derived: a door of 2 m2 is found in a scene of up to
+  // 1400 m. Changing it by 30% changes no answer.
+  static constexpr double kLeastArea = 1e-6;
   // A pane or hole is an opening if one side is at least this many times brighter than the other. Typical
   // ratios:
   //   windows by day, which also mirror the bright side   2 to 8
@@ -133,9 +133,9 @@ struct RadianceGuess {
 // (shared_highlights.cpp).
 struct SharedHighlights {
   // If the lobe's density in a direction (per sr) times the solid angle of the source is below this, only
-  // shadow rays estimate the light from that direction. Chosen by experiment. A shadow ray then adds at most
-  // this multiple of the light of the whole lobe.
-  RSPHERE_TUNED(SharedHighlights, double, kLeast, .25);
+  // shadow rays estimate the light from that direction. Derived: a shadow ray then adds at most a quarter of
+  // the light of the whole lobe.
+  static constexpr double kLeast = .25;
 };
 
 // The fractions of the directions of gathers that are aimed (gather_directions.cpp). They are proportional to
@@ -172,10 +172,10 @@ struct Highlights {
   //   .05     .44%  .20%  2.71%     1.13  1.04  1.01
   //   .02     .23%  .28%  2.58%     1.16  1.07  1.02
   RSPHERE_TUNED(Highlights, double, kLeast, .05);
-  // Gathers with at least this number of rays search for highlights on cylinders. Measured in the same
-  // office, where a search takes as long as two rays. If single rays searched too, spherical means would take
-  // 1.5 times the time for the same noise.
-  RSPHERE_TUNED(Highlights, int, kMany, 16);
+  // Gathers with at least this number of rays search for highlights on cylinders. Derived: in the same
+  // office, a search takes as long as two rays, at most an eighth of these. If single rays searched too,
+  // spherical means would take 1.5 times the time for the same noise.
+  static constexpr int kMany = 16;
   // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. Measured for
   // spherical means in the same office: relative to no aiming at balls, the work for the same noise increases
   // by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single highlight
@@ -183,8 +183,9 @@ struct Highlights {
   // office; noise: error below 1%, time 6%).
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
-  // wider part would be noticeably curved.
-  RSPHERE_TUNED(Highlights, double, kHalf, .25);
+  // wider part would be noticeably curved. Derived: the edge of a part is then at most 3% farther away than
+  // its middle, sqrt(1 + .25^2).
+  static constexpr double kHalf = .25;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region around the image of a source in a mirroring ball (importance/glints.h) to that image.
   // Without this margin, few directions would hit the edge, and a part of the image would be lost. Changing
