@@ -1,6 +1,7 @@
 #include "importance/diffuse_glances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,9 +23,16 @@ Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
   return Random(mixBits(mixBits(set.seed() + static_cast<uint64_t>(stream)) + number));
 }
 
-size_t glancesFor(const SphereOptions& options) {
+size_t glancesFor(const SphereOptions& options, bool daylit) {
   const auto base = static_cast<size_t>(options.baseDirections);
-  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMost));
+  const size_t each = daylit ? Tuning::kDaylitPerDirection : Tuning::kPerDirection;
+  return std::min(each * base, std::max(base, Tuning::kMost));
+}
+
+V3d anyDirection(Random& random) {
+  const double z = 1 - 2 * random.uniform(), angle = 2 * kPi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - z * z));
+  return V3d(r * std::cos(angle), r * std::sin(angle), z);
 }
 
 size_t poolsFor(const SphereOptions& options) {
@@ -33,11 +41,12 @@ size_t poolsFor(const SphereOptions& options) {
 
 // The error due to light vertices is estimated from the differences between batches of light paths. Each
 // batch has enough paths to know its mean within 3% if the standard deviation of a path equals the mean.
-size_t pathsFor(const SphereOptions& options) {
+size_t pathsFor(const SphereOptions& options, bool daylit) {
   const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
   const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
   const double paths =
-      std::max(least, Tuning::kPathsPerDirection * options.baseDirections) * std::max(1., finer * finer);
+      std::max(least, (daylit ? Tuning::kDaylitPaths : Tuning::kPathsPerDirection) * options.baseDirections) *
+      std::max(1., finer * finer);
   return static_cast<size_t>(std::min(paths, static_cast<double>(Tuning::kMost / poolsFor(options))));
 }
 
@@ -113,8 +122,7 @@ class DiffuseGlances::Joins {
     const double reflected =
         v.vertex.way == LightVertex::direct
             ? joinedReflectance(*v.material, v.vertex.normal(), -to / distance, -v.direction)
-            : v.joinedShare(vertices_.nearLight(), distance) * v.vertex.power /
-                  vertices_.emission().pathPower();
+            : v.joinedShare(vertices_.nearLight(), distance) * v.vertex.power / vertices_.pathPower();
     return reflected * facing / distance / (square + radius2_);
   }
 
@@ -133,12 +141,31 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& 
   return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base);
 }
 
+std::unique_ptr<const DiffuseGlances> DiffuseGlances::makeDaylit(const SphereTracing& tracing,
+                                                                 const SphereOptions& options,
+                                                                 const BaseSet& base) {
+  const PreparedScene& prepared = tracing.prepared;
+  if (!tracing.aims.openings || prepared.options().ambientAccuracy > 0) return nullptr;
+  const V3d size = prepared.tracer().bounds().size();
+  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}));
+  if (portals.empty()) return nullptr;
+  PlainSurfaces surfaces(prepared, std::move(portals));
+  if (surfaces.obstacle()) return nullptr;
+  const Aims& aims = tracing.aims;
+  return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base,
+                                                [&prepared, aims] {
+                                                  static const Caches none;
+                                                  return PathTracer(prepared, none, aims);
+                                                });
+}
+
 DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces,
-                               const SphereOptions& options, const BaseSet& base)
+                               const SphereOptions& options, const BaseSet& base, LightPools::Tracers tracers)
     : prepared_(prepared),
       surfaces_(std::move(surfaces)),
-      lights_(prepared, surfaces_, poolsFor(options), pathsFor(options), mixBits(options.rotation)),
-      glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
+      lights_(prepared, surfaces_, poolsFor(options), pathsFor(options, bool(tracers)),
+              mixBits(options.rotation), tracers),
+      glances_(rotatedDirections(baseDirections(glancesFor(options, bool(tracers))), options.rotation)),
       zones_(base.zones),
       joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
@@ -147,7 +174,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
   neighbours_ = neighboursOf(workspace);
 }
 
-DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
+DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& tracer) const {
   const std::shared_ptr<const VertexLight> own = light(set);
   const VertexLight& both = *own;
   const auto n = static_cast<double>(glances_.size());
@@ -159,6 +186,11 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set) const {
   addJoins(set, joins, records, found);
 
   Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};
+  const auto beyond = [&](const V3d& origin, const V3d& direction, int bounces, Random& random) {
+    return tracer.outdoors(origin, direction, bounces, random.bits());
+  };
+  const OutdoorRadiance outdoors(beyond);
+  glancing.scratch.outdoors = &outdoors;
   std::vector<DirectionSample> seen;
   for (const V3d& direction : set.turned(glances_)) {
     if (neighbours_) glancing.record = &recordFor(direction, records);
@@ -219,9 +251,37 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 
-Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number) const {
+bool DiffuseGlances::suit(const V3d& point) const {
+  Random random(seedOf(std::array{point.x, point.y, point.z}));
+  FunctionScratch scratch;
+  size_t past = 0;
+  for (size_t i = 0; i < Tuning::kWalks; ++i) {
+    V3d origin = point, direction = anyDirection(random);
+    SurfaceId start;
+    for (int hits = 0; hits <= prepared_.options().ambientBounces; ++hits) {
+      const Sight sight = surfaces_.look(origin, direction, kFarAway, start);
+      if (sight.leaves) break;
+      const PlainPlace at = surfaces_.placeOf(origin, direction, sight, scratch);
+      past += !at.material;
+      if (!at.material || random.uniform() >= brightness(Radiance(at.color()))) break;
+      origin = at.point;
+      start = at.surface;
+      const double u1 = random.uniform(), u2 = random.uniform();
+      direction = diffuseDirection(at.normal, u1, u2);
+    }
+  }
+  return static_cast<double>(past) <= Tuning::kMostPast * static_cast<double>(Tuning::kWalks);
+}
+
+Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number,
+                               PathTracer& tracer) const {
   const std::shared_ptr<const VertexLight> own = light(set);
   Glancing alone{*own, randomOf(set, Stream::single, number)};
+  const auto beyond = [&](const V3d& origin, const V3d& to, int bounces, Random& random) {
+    return tracer.outdoors(origin, to, bounces, random.bits());
+  };
+  const OutdoorRadiance outdoors(beyond);
+  alone.scratch.outdoors = &outdoors;
   return glance(set.point(), direction, alone);
 }
 

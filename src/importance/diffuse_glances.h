@@ -13,6 +13,7 @@
 #include "importance/light_pools.h"
 #include "importance/sampling_strategy.h"
 #include "importance/sphere_options.h"
+#include "importance/sphere_tracing.h"
 
 namespace rsphere {
 
@@ -27,9 +28,13 @@ class DiffuseGlances {
   // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
-  // REQUIRES that make() would not return null.
+  // The same for rooms that daylight enters through openings, which are those of tracing.aims. Null if there
+  // are none, or if light is interpolated. Not for points where much light comes past them.
+  static std::unique_ptr<const DiffuseGlances> makeDaylit(const SphereTracing& tracing,
+                                                          const SphereOptions& options, const BaseSet& base);
+  // REQUIRES that make() or makeDaylit() would not return null. tracers: none without portals.
   DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
-                 const BaseSet& base);
+                 const BaseSet& base, LightPools::Tracers tracers = {});
 
   // The light found by the glances and joins of one set at its point.
   struct Found {
@@ -44,10 +49,16 @@ class DiffuseGlances {
     ZoneVariances ofZones;
     std::vector<SharedError> sharedByZone;
   };
-  Found at(const SetAtPoint& set) const;
+  // tracer: for the light beyond portals.
+  Found at(const SetAtPoint& set, PathTracer& tracer) const;
+
+  // Whether nearly all paths from a point of a daylit room lead to plain surfaces and portals alone. Otherwise,
+  // as outdoors, most of the light would be left to a few paths from the eye. Depends on the point and the scene
+  // alone.
+  bool suit(const V3d& point) const;
 
   // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.
-  Radiance along(const SetAtPoint& set, const V3d& direction, size_t number) const;
+  Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
 
   // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
   // and other transmitting surfaces.

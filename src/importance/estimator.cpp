@@ -200,8 +200,24 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
     tracing_.aims = joined(aimsFor(transport, glances_ != nullptr), tracing_.ofPoints);
   }
   strategy_ = makeStrategy();
+  makeDaylit();
   if (options.accuracy > 0)
     dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
+}
+
+void SphereEstimator::makeDaylit() {
+  if (glances_ || options_.weights != Weights::silhouettes || !(options_.densityFactor > 0)) return;
+  auto glances = DiffuseGlances::makeDaylit(tracing_, options_, base_);
+  if (!glances) return;
+  SphereTracing tracing{tracing_.prepared, tracing_.caches, tracing_.aims, glances->lightOfAll()};
+  tracing.aims.spots = nullptr;
+  daylit_ = std::make_unique<Daylit>(Daylit{std::move(glances), std::move(tracing), nullptr});
+  daylit_->strategy = std::make_unique<SilhouetteWeights>(daylit_->tracing, options_, base_, special_,
+                                                          sources_, daylit_->glances.get());
+}
+
+const SamplingStrategy& SphereEstimator::strategyFor(const V3d& point) const {
+  return daylit_ && daylit_->glances->suit(point) ? *daylit_->strategy : *strategy_;
 }
 
 double SphereEstimator::sharedError() const { return coarseError(tracing_); }
@@ -237,12 +253,13 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   std::array<Half, 2> halves{Half(base_.zones.get()), Half(base_.zones.get())};
   std::vector<KeptSet> kept;
   TwoHalves decision(options_.accuracy, dark_);
+  const SamplingStrategy& strategy = strategyFor(point);
   uint64_t sets = 0;
   size_t directions = 0, largest = 0, lit = 0;
   for (auto next = decision.next(); next && directions + largest <= most; next = decision.next()) {
     if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
-        strategy_->sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
+        strategy.sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
     const Moments moments = set.moments(base_);
     halves[*next].add(set, moments);
     decision.add(*next, photopicOf(moments.total.color, base_.sampling),

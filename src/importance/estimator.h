@@ -79,6 +79,8 @@ class SphereEstimator {
  private:
   bool isDark(const PointAnswer& answer, size_t lit) const;
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
+  void makeDaylit();
+  const SamplingStrategy& strategyFor(const V3d& point) const;
 
   SphereOptions options_;
   BaseSet base_;
@@ -87,6 +89,13 @@ class SphereEstimator {
   std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices miss some of the light
   SphereTracing tracing_;
   std::unique_ptr<const SamplingStrategy> strategy_;
+  // For points in rooms that daylight enters through openings; null: there are none.
+  struct Daylit {
+    std::unique_ptr<const DiffuseGlances> glances;
+    SphereTracing tracing;
+    std::unique_ptr<const SamplingStrategy> strategy;
+  };
+  std::unique_ptr<Daylit> daylit_;
   double dark_ = 0;  // -Sa: integral of radiance (W/m2) below which a point is dark
 };
 

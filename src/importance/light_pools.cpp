@@ -18,14 +18,16 @@ constexpr double kShared = .75;
 }  // namespace
 
 LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools,
-                       size_t paths, uint64_t seed)
+                       size_t paths, uint64_t seed, Tracers tracers)
     : prepared_(prepared),
       surfaces_(surfaces),
-      emission_(prepared, surfaces, paths),
+      emission_(prepared, surfaces,
+                static_cast<size_t>(static_cast<double>(paths) * (1 - LightVertices::shareOfSky(surfaces)))),
       pools_(pools),
       paths_(paths),
       most_(std::max(pools + 1, tuning::DiffuseGlances::kMost / paths)),
-      seed_(seed) {}
+      seed_(seed),
+      tracers_(std::move(tracers)) {}
 
 double LightPools::powerOf(std::span<const uint32_t> sources) const {
   double sum = 0;
@@ -65,12 +67,22 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
           std::min_element(made_.pools.begin(), made_.pools.end(),
                            [](const auto& a, const auto& b) { return a.second->asked < b.second->asked; }));
   }
-  std::call_once(found->made, [&] {
-    found->light = std::make_shared<const VertexLight>(
-        prepared_, surfaces_, preferred.empty() ? emission_ : emission_.preferring(preferred), paths_,
-        mixBits(seed_ + number));
-  });
+  std::call_once(found->made, [&] { found->light = made(preferred, number); });
   return found->light;
+}
+
+std::shared_ptr<const VertexLight> LightPools::made(std::span<const uint32_t> preferred,
+                                                    size_t number) const {
+  const SourceEmission emission = preferred.empty() ? emission_ : emission_.preferring(preferred);
+  const uint64_t seed = mixBits(seed_ + number);
+  if (!tracers_) return std::make_shared<const VertexLight>(prepared_, surfaces_, emission, paths_, seed);
+  PathTracer tracer = tracers_();
+  const auto parts = [&](const V3d& origin, const V3d& direction, int bounces, Random& random,
+                         std::vector<Radiance>& found) {
+    tracer.outdoors(origin, direction, bounces, random.bits(), found);
+  };
+  const OutdoorParts outdoors(parts);
+  return std::make_shared<const VertexLight>(prepared_, surfaces_, emission, paths_, seed, &outdoors);
 }
 
 }  // namespace rsphere

@@ -4,12 +4,14 @@
 // vertices. Most of their paths start at the sources visible in the room; the others start at all remaining
 // sources, whose light may arrive through other rooms.
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
+#include "transport/path_tracer.h"
 #include "transport/vertex_light.h"
 
 namespace rsphere {
@@ -17,10 +19,13 @@ namespace rsphere {
 // Shared by all threads.
 class LightPools {
  public:
+  // Makes tracers of ray mode, for the light beyond portals; none without portals.
+  using Tracers = std::function<PathTracer()>;
+
   // pools: number of independent pools of vertices for each place. paths: number of light paths in each pool.
   // seed: determines all random numbers. Keeps references.
   LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools, size_t paths,
-             uint64_t seed);
+             uint64_t seed, Tracers tracers = {});
 
   // The vertices for a point (world), from the pool that the set of directions with this number uses. They
   // are computed at the first request and do not depend on other requests.
@@ -42,6 +47,7 @@ class LightPools {
   };
 
   std::shared_ptr<const VertexLight> pool(std::span<const uint32_t> preferred, size_t number) const;
+  std::shared_ptr<const VertexLight> made(std::span<const uint32_t> preferred, size_t number) const;
   std::span<const uint32_t> preferredAt(const V3d& point) const;
   double powerOf(std::span<const uint32_t> sources) const;
 
@@ -50,6 +56,7 @@ class LightPools {
   SourceEmission emission_;
   size_t pools_, paths_, most_;  // most_: cap on the pools in memory
   uint64_t seed_;
+  Tracers tracers_;
   mutable Made made_;
 };
 

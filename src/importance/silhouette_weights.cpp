@@ -105,7 +105,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));
   const Plan plan = planFor(set, view, toImages);
-  const SampledSet others = traced(set, view, plan, paths);
+  const SampledSet others = traced(set, view, plan, paths, tracer);
   DiffuseGlances::Found beyond = beyondGuesses(set, view, others.samples);
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
@@ -131,7 +131,7 @@ SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathT
       sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
                           options_.densityFactor);
   if (glances_) {
-    view.glanced = glances_->at(set);
+    view.glanced = glances_->at(set, tracer);
     view.meanBrightness = tuning::DiffuseGlances::kLeft * brightness(view.glanced.moments.total) / (4 * pi);
   } else if (guidance_) {
     lookAround(set, tracer, view);
@@ -190,7 +190,7 @@ void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) cons
 }
 
 SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, const Plan& plan,
-                                     const PathsFrom& paths) const {
+                                     const PathsFrom& paths, PathTracer& tracer) const {
   SampledSet sampled;
   std::vector<CellInTarget> cells;
   sampled.samples.reserve(plan.directions.size());
@@ -209,7 +209,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     sample.region = enters ? region.id : kNoRegion;
     if (enters) {
       sample.value = ray.value;
-      sample.guess = guessAlong(set, view, i, direction, ray);
+      sample.guess = guessAlong(set, view, i, direction, ray, tracer);
       if (glances_) sample.value += sample.guess;
     }
     sampled.samples.push_back(sample);
@@ -223,9 +223,9 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
 // If glances find all light of diffuse surfaces, traced rays leave it out. With -Sd, one glance along each
 // direction then estimates it.
 Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
-                                       const V3d& direction, const TracedRay& ray) const {
+                                       const V3d& direction, const TracedRay& ray, PathTracer& tracer) const {
   if (view.guess) return view.guess->from(guidance_->guess.placeOf(set.point(), direction, ray.firstHit));
-  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1) : Radiance();
+  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1, tracer) : Radiance();
 }
 
 DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, const View& view,

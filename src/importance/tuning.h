@@ -46,6 +46,13 @@ struct DiffuseGlances {
   // Glances for each base direction. They take most of the time of a point. The error is inversely
   // proportional to the square root of their number.
   RSPHERE_TUNED(DiffuseGlances, size_t, kPerDirection, 12);
+  // The same by daylight through openings: glances for each base direction, and light paths for each.
+  RSPHERE_TUNED(DiffuseGlances, size_t, kDaylitPerDirection, 3);
+  RSPHERE_TUNED(DiffuseGlances, double, kDaylitPaths, 16);
+  // Paths from a point that decide whether glances suit it by daylight, and the largest fraction of them that
+  // may leave the room past all portals or meet surfaces that are not known.
+  static constexpr size_t kWalks = 256;
+  RSPHERE_TUNED(DiffuseGlances, double, kMostPast, .02);
   // Limit on the memory for the glances at one point (about 100 MB), if there are fewer base directions, and
   // for the light paths of all pools together (about 400 MB).
   static constexpr size_t kMost = 1 << 20;

@@ -111,7 +111,7 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
     to.coefficient += scratch_.ofLobe[static_cast<size_t>(&to - scratch_.contributions.data())];
   if (follow || shown == ShownShadows::all)
     value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
-  if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample.source))) return false;
+  if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample))) return false;
   if (!follow) value = to.value;
   if (!follow && shown == ShownShadows::thatArrive) show(at, to);
   return !follow || maxChannel(value) > kNegligible;
@@ -120,7 +120,7 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
 // Turns `next` into the shadow ray of a contribution; false if the path ends here.
 bool DirectLight::aim(NextRay& next, Receiver at, const Contribution& to) {
   if (!goesOnAlong(next, t_, state_)) return false;
-  next.context.known = isLeftOut(at, to.sample->source) ? Known::joined : Known::no;
+  next.context.known = isLeftOut(at, *to.sample) ? Known::joined : Known::no;
   next.context.contribution *= to.coefficient;
   next.query.origin = at.point;
   next.query.aimedAt = to.sample->source;

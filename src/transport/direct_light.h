@@ -78,8 +78,8 @@ class DirectLight {
   void addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value);
   bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
-  static bool isLeftOut(Receiver at, LightId source) {
-    return at.leftToBothEnds && at.leftToBothEnds->knows(source);
+  static bool isLeftOut(Receiver at, const SourceSample& sample) {
+    return at.leftToBothEnds && at.leftToBothEnds->bringsLightOf(sample.source, at.point, sample.direction);
   }
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =

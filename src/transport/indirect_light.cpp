@@ -8,6 +8,7 @@
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
+#include "transport/vertex_light.h"
 
 namespace rsphere {
 namespace {
@@ -153,9 +154,17 @@ void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance&
   looksOnly_ = false;
 }
 
+// Daylight through openings is not looked for where paths from both ends bring it.
+Aims IndirectLight::aimsAt(const RayEnd& end) const {
+  Aims aims = settings_.aims;
+  if (end.known != Known::no && !state_.request.vertexLight->surfaces().portals().empty())
+    aims.openings = nullptr, aims.spots = nullptr;
+  return aims;
+}
+
 void IndirectLight::send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share,
                          Radiance& value) {
-  const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, rays);
+  const GatherDirections directions(aimsAt(end), side.point, side.normal, side.trueNormal, rays);
   const Coefficient weight =
       settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / share.weighedAs;
   sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient * share.part,

@@ -48,6 +48,7 @@ class IndirectLight {
     int weighedAs;
     double part;
   };
+  Aims aimsAt(const RayEnd& end) const;
   void send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);
 

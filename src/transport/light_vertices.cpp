@@ -84,9 +84,11 @@ double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, co
 // One light path. It adds its vertices to the lists.
 class LightVertices::Path {
  public:
-  Path(const PreparedScene& prepared, LightVertices& all, size_t number, uint64_t seed)
+  Path(const PreparedScene& prepared, LightVertices& all, size_t number, uint64_t seed,
+       const OutdoorParts* outdoors)
       : prepared_(prepared),
         all_(all),
+        outdoors_(outdoors),
         random_(mixBits(mixBits(seed) + number)),
         batch_(number % LightVertex::kBatches) {}
 
@@ -99,6 +101,8 @@ class LightVertices::Path {
 
  private:
   bool leave(double where);
+  bool leaveSky(double where);
+  bool entersAgain(const Hit& hit) const;
   bool passPane(const Hit& hit);
   bool meetMirror(const Hit& hit);
   void arrive(const PlainPlace& at);
@@ -112,15 +116,15 @@ class LightVertices::Path {
     V3d origin, direction;
     SurfaceId start;
     Irradiance power;
-    double length = 0;  // since the last reflection
+    double length = 0;  // since the last reflection, or since the light left its source
   };
   // The history of the path.
   struct Past {
-    LightId source;
+    LightId source;  // kNone: the sky
     double cosineAtSource = 0;
     LightVertex::Way way = LightVertex::direct;
     bool senderIsUnbounded = false;  // isUnbounded() of the vertex that sent the light
-    bool fromSource = true;          // no surface has reflected the light yet
+    bool fromSource = true;          // no surface has reflected the light yet; false for light of the sky
     int bounces = 0;
   };
   struct Work {
@@ -130,6 +134,7 @@ class LightVertices::Path {
 
   const PreparedScene& prepared_;
   LightVertices& all_;
+  const OutdoorParts* outdoors_;
   Random random_;
   size_t batch_;
   Beam beam_;
@@ -142,7 +147,7 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   if (!leave(where)) return course;
   for (size_t hits = 0; hits < tuning::Caps::kAsked && brightness(beam_.power) > 0; ++hits) {
     const Hit hit = prepared_.tracer().nearest(beam_.origin, beam_.direction, kFarAway, beam_.start);
-    if (hit.surface == kNone) break;
+    if (hit.surface == kNone || entersAgain(hit)) break;
     beam_.length += hit.distance;
     if (hit.perturbation != V3d(0, 0, 0)) break;
     const PlainFinish& finish = all_.surfaces_.finishOf(hit.surface);
@@ -152,8 +157,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
     }
     const PlainPlace at = all_.surfaces_.placeOf(beam_.origin, beam_.direction,
                                                  {hit, hit.distance, Coefficient(1)}, work_.scratch);
+    if (course.met == 0) course.firstLength = beam_.length;
     if (past_.fromSource) {
-      course.firstLength = beam_.length;
       beam_.power = beam_.power * all_.emission_.divergence(past_.source, beam_.length);
     }
     ++course.met;
@@ -171,10 +176,30 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   return course;
 }
 
+// The light of a path that enters through a portal is that of the portal already.
+bool LightVertices::Path::entersAgain(const Hit& hit) const {
+  return all_.surfaces_.portals().isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction,
+                                         hit.distance);
+}
+
+bool LightVertices::Path::leaveSky(double where) {
+  const SkyEmission::Leaving way =
+      all_.sky_.leave(where, prepared_.options().ambientBounces - 1, random_, *outdoors_);
+  beam_.origin = way.origin;
+  beam_.direction = way.direction;
+  beam_.power = way.power;
+  past_.way = LightVertex::unweighed;  // the places in view look for it themselves
+  past_.fromSource = false;
+  past_.bounces = way.bounces;
+  return true;
+}
+
 bool LightVertices::Path::leave(double where) {
-  past_.source = all_.emission_.sourceAt(where);
+  if (where < all_.ofSky_) return leaveSky(where / all_.ofSky_);
+  past_.source = all_.emission_.sourceAt((where - all_.ofSky_) / (1 - all_.ofSky_));
   if (past_.source == kNone) return false;
-  beam_.start = prepared_.lights().all()[past_.source].surface;
+  if (!prepared_.lights().all()[past_.source].isDistant())
+    beam_.start = prepared_.lights().all()[past_.source].surface;
   const SourceEmission::Leaving way = all_.emission_.leave(past_.source, random_, work_.scratch);
   beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
   beam_.direction = way.direction;
@@ -237,7 +262,11 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
-  all_.all_.push_back(vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_));
+  // Daylight that has come by a reflection arrives with the bounded kernel, too: some of the rays that are left
+  // to paths from the eye look for near surfaces that it lights.
+  const bool bounded = !all_.surfaces_.portals().empty() && past_.way != LightVertex::direct;
+  all_.all_.push_back(
+      vertexAt(at, reflected, past_.bounces + 1, bounded ? LightVertex::unweighed : past_.way, batch_));
   all_.arriving_.push_back({std::move(arriving), at.material});
 }
 
@@ -316,16 +345,26 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
   return std::abs(brightness(beam_.power)) > 0;
 }
 
+double LightVertices::shareOfSky(const PlainSurfaces& surfaces) {
+  if (surfaces.portals().empty()) return 0;
+  return surfaces.haveSources() ? .5 : 1;
+}
+
 LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces,
-                             SourceEmission emission, size_t paths, uint64_t seed)
-    : surfaces_(surfaces), emission_(std::move(emission)) {
-  near_ = measured(prepared, paths, seed);
+                             SourceEmission emission, size_t paths, uint64_t seed,
+                             const OutdoorParts* outdoors)
+    : surfaces_(surfaces),
+      emission_(std::move(emission)),
+      ofSky_(shareOfSky(surfaces)),
+      sky_(surfaces.portals(), ofSky_ * static_cast<double>(paths)),
+      pathPower_(ofSky_ * sky_.pathPower() + (1 - ofSky_) * emission_.pathPower()) {
+  near_ = measured(prepared, paths, seed, outdoors);
   const auto count = static_cast<double>(paths);
   size_t met = 0, metUnknown = 0;
   for (size_t i = 0; i < paths; ++i) {
     // Stratified, so that all batches have nearly the same number of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
-    const Path::Course course = Path(prepared, *this, i, seed).send(where);
+    const Path::Course course = Path(prepared, *this, i, seed, outdoors).send(where);
     met += course.met;
     metUnknown += course.metUnknown;
   }
@@ -337,13 +376,14 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
 }
 
 // The distances depend on the size of the room, which is estimated by the mean length of first segments.
-NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, uint64_t seed) {
+NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, uint64_t seed,
+                                  const OutdoorParts* outdoors) {
   const size_t tried = std::min(paths, tuning::Caps::kAsked);
   double sum = 0;
   size_t met = 0;
   for (size_t i = 0; i < tried; ++i) {
     const double where = (static_cast<double>(i) + .5) / static_cast<double>(tried);
-    const double length = Path(prepared, *this, i, ~seed).send(where).firstLength;
+    const double length = Path(prepared, *this, i, ~seed, outdoors).send(where).firstLength;
     sum += length;
     met += length > 0;
   }
@@ -355,7 +395,7 @@ NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, u
 }
 
 void LightVertices::sort() {
-  VertexClusters::Order clustered = VertexClusters::orderOf(all_);
+  VertexClusters::Order clustered = VertexClusters::orderOf(all_, !surfaces_.portals().empty());
   permute(all_, clustered.vertices);
   permute(arriving_, clustered.vertices);
   ends_ = std::move(clustered.ends);

@@ -8,6 +8,8 @@
 //   reflections are excluded, because shadow rays do not follow them either.
 // - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
 //   reflections.
+// - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
+//   direct sunlight, it is light of other surfaces or of the sky, which sharp reflections transport, too.
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "transport/hidden_boxes.h"
 #include "transport/light_vertex.h"
 #include "transport/plain_surfaces.h"
+#include "transport/sky_emission.h"
 #include "transport/source_emission.h"
 
 namespace rsphere {
@@ -75,10 +78,13 @@ class VisibleVertices {
 // Shared by all threads; constant.
 class LightVertices {
  public:
-  // Sends paths from the sources, distributed as in `emission`. Keeps a reference to the surfaces.
-  // REQUIRES that PlainSurfaces::obstacle() found none.
+  // Sends paths from the sources, distributed as in `emission`. Keeps a reference to the surfaces. outdoors:
+  // null without portals. REQUIRES that PlainSurfaces::obstacle() found none.
   LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
-                size_t paths, uint64_t seed);
+                size_t paths, uint64_t seed, const OutdoorParts* outdoors = nullptr);
+
+  // The share of the paths that starts on portals for light of the sky; the others start on sources.
+  static double shareOfSky(const PlainSurfaces& surfaces);
 
   // Vertices that send light to other diffuse surfaces. The vertices of a cluster are consecutive.
   const std::vector<LightVertex>& all() const { return all_; }
@@ -92,6 +98,8 @@ class LightVertices {
   const VisibleVertices& visible() const { return visible_; }
   const NearLight& nearLight() const { return near_; }
   const SourceEmission& emission() const { return emission_; }
+  // Mean power of a path, W (brightness).
+  double pathPower() const { return pathPower_; }
 
   // The probability of following a path from the eye at a place, for light that neither vertices nor near
   // rays estimate. The more light hits unknown surfaces, the higher it is.
@@ -103,11 +111,15 @@ class LightVertices {
     Irradiance power;
     const Opaque* material;
   };
-  NearLight measured(const PreparedScene& prepared, size_t paths, uint64_t seed);
+  NearLight measured(const PreparedScene& prepared, size_t paths, uint64_t seed,
+                     const OutdoorParts* outdoors);
   void sort();
 
   const PlainSurfaces& surfaces_;
   SourceEmission emission_;
+  double ofSky_;  // share of the paths that start on portals for light of the sky
+  SkyEmission sky_;
+  double pathPower_;
   double shareOfRest_ = 1;
   NearLight near_;
   std::vector<LightVertex> all_;

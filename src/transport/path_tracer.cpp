@@ -49,6 +49,16 @@ void checkDepth(const PathContext& ray) {
         rad::Status::system);
 }
 
+// Whether a finished ray has met something that emits light, which other rays do not bring as well: an illum
+// is seen as what it replaces, and a shadow ray may miss its source.
+bool bringsLight(const PreparedScene& prepared, const RayEnd& end) {
+  if (end.hit.surface == kNone) return false;
+  const LightId aimedAt = end.ray.aimedAt;
+  if (aimedAt != kNone) return prepared.lights().all()[aimedAt].surface == end.hit.surface;
+  const Material* const material = prepared.scene().materialOf(prepared.scene().surfaces[end.hit.surface]);
+  return material && isLightSource(*material) && !std::holds_alternative<Illum>(*material);
+}
+
 }  // namespace
 
 // Implements the recursion, and owns the parts of the path tracer.
@@ -77,6 +87,9 @@ class PathTracer::Path final : public RayFollower {
     if (state_.request.vertexLight) primary.known = Known::joined;
     return primary;
   }
+
+  Radiance glimpse(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
+                   const PathRequest& request = {});
 
   using RayFollower::follow;
   RayResult follow(RayEnd& end) override;
@@ -143,6 +156,7 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
 // The result of a ray whose hit is known.
 [[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
   RayResult result;
+  if (end.context.known != Known::no && shading_.leftToPortals(end)) return result;
   if (const SurfaceId surface = end.hit.surface; surface != kNone) {
     result.unmirroredLength = end.hit.length;
     if (!shading_.shade(end, result) && !t_.scene().surfaces[surface].shape.as<Distant>()) result = pass(end);
@@ -152,6 +166,8 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   if (state_.request.observer && !end.ray.unobstructed &&
       (end.ray.aimedAt == kNone || end.hit.surface != kNone))
     (*state_.request.observer)(end, result);
+  if (end.context.known == Known::unjoined && end.context.unjoinedShare < 1)
+    shading_.weighPortal(end, result);
   media_.participate(end, result.value);
   return result;
 }
@@ -224,15 +240,35 @@ TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample
   return path_->traced(end, result);
 }
 
+Radiance PathTracer::Path::glimpse(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
+                                   const PathRequest& request) {
+  begin(seed, direction, request);
+  state_.glimpses = true;
+  PathContext ray = context();
+  ray.kind = kReflectedAmbient;
+  ray.kinds = kPrimary | kReflectedAmbient;
+  ray.ambientLevel = bounces;
+  state_.descendants = descendantsOfGlimpse(bounces);
+  return follow({.origin = origin, .direction = direction}, ray).value;
+}
+
 Radiance PathTracer::glimpse(const V3d& origin, const V3d& direction, uint64_t seed) {
-  path_->begin(seed, direction);
-  path_->state_.glimpses = true;
-  PathContext context = path_->context();
-  context.kind = kReflectedAmbient;
-  context.kinds = kPrimary | kReflectedAmbient;
-  context.ambientLevel = path_->t_.options().ambientBounces - 1;
-  path_->state_.descendants = descendantsOfGlimpse(context.ambientLevel);
-  return path_->follow({.origin = origin, .direction = direction}, context).value;
+  return path_->glimpse(origin, direction, path_->t_.options().ambientBounces - 1, seed);
+}
+
+Radiance PathTracer::outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed) {
+  return path_->glimpse(origin, direction, bounces, seed);
+}
+
+void PathTracer::outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
+                          std::vector<Radiance>& parts) {
+  parts.assign(static_cast<size_t>(path_->t_.options().ambientBounces - bounces + 1), Radiance());
+  const RayObserver add = [&](const RayEnd& end, const RayResult& result) {
+    if (bringsLight(path_->t_, end))
+      parts[static_cast<size_t>(end.context.ambientLevel - bounces)] +=
+          result.value * (end.context.contribution * passedBy(end));
+  };
+  path_->glimpse(origin, direction, bounces, seed, {.observer = &add, .shadows = ShownShadows::thatArrive});
 }
 
 TracedRay PathTracer::cast(const V3d& origin, const V3d& direction, double farthest) {

@@ -5,7 +5,9 @@
 // adds these up for the material that a ray hits. Paths end after -ab diffuse bounces, and according to -lr
 // and -lw (ray_limits.h).
 #include <memory>
+#include <vector>
 
+#include "transport/outdoor_light.h"
 #include "transport/path_observer.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"
@@ -42,6 +44,11 @@ class PathTracer {
   // Radiance (W/sr/m2) along a ray, with at most one further diffuse bounce, for which one direction is
   // sampled.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
+
+  // The light beyond portals (outdoor_light.h), with one direction for each gather.
+  Radiance outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed);
+  void outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
+                std::vector<Radiance>& parts);
 
   // Finds the surface that a ray hits, without its radiance: value is 0.
   TracedRay cast(const V3d& origin, const V3d& direction, double farthest);

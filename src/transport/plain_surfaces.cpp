@@ -65,8 +65,11 @@ Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
 }
 
 static_assert(kMaterialTypes == 19, "Is its answer known without following a ray?");
-PlainSurfaces::PlainSurfaces(const PreparedScene& prepared)
-    : prepared_(prepared), scene_(prepared.scene()), tracer_(prepared.tracer()) {
+PlainSurfaces::PlainSurfaces(const PreparedScene& prepared, Portals portals)
+    : prepared_(prepared),
+      scene_(prepared.scene()),
+      tracer_(prepared.tracer()),
+      portals_(std::move(portals)) {
   for (const Finish& finish : scene_.surfaces.finishes()) {
     const Material* const material = materialOfFinish(scene_, finish);
     const ModifierId patterns = material ? scene_.modifiers[finish.material].next : ModifierId();
@@ -97,6 +100,8 @@ void PlainSurfaces::findSources() {
 static_assert(kLightForms == 8, "Are samples spread over all of it?");
 bool PlainSurfaces::isKnown(LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
+  if (!portals_.empty())
+    return light.isDistant() && !light.isVirtual() && prepared_.lights().constantRadiance(source);
   if (light.isDistant() || light.reach > 0) return false;
   if (light.isVirtual()) return finishOf(light.surface).mirror && knownSources_[light.relayed];
   const auto* const plane = light.as<PlaneLight>();
@@ -126,12 +131,18 @@ void PlainSurfaces::findSurfaces() {
     if (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)))
       coverage_.passUnknown = true;
   }
+  if (!portals_.empty()) coverage_.all = false;  // some light may come past them
+  if (!portals_.empty() && hasKnownSources_) coverage_.passUnknown = true;
   coverage_.allDirect = coverage_.allSources && !coverage_.passUnknown;
   coverage_.all = coverage_.all && coverage_.allDirect;
 }
 
 const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
+  for (const auto& modifier : scene_.modifiers)
+    if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
+  if (!portals_.empty())
+    return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
   // With an unknown surface (a sheet of paper or a crystal ball in an open-plan office), bidirectional
@@ -169,7 +180,8 @@ double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const
   return sum;
 }
 
-Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const {
+Sight PlainSurfaces::straight(const V3d& origin, const V3d& direction, double farthest,
+                              SurfaceId start) const {
   Sight sight;
   sight.hit = tracer_.nearest(origin, direction, farthest, start);
   sight.distance = sight.hit.distance;
@@ -184,14 +196,32 @@ Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthe
   return sight;
 }
 
-Coefficient PlainSurfaces::passing(const V3d& from, const V3d& to, SurfaceId start) const {
-  const V3d between = to - from;
-  const double distance = between.length(), end = distance * (1 - kEnd) - 2 * kSamePlace;
-  if (!(end > 0)) return {};
+Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const {
+  const double leaving = portals_.leaving(origin, direction, farthest);
+  Sight sight = straight(origin, direction, std::min(leaving, farthest), start);
+  if (sight.hit.surface == kNone && leaving < farthest) {
+    sight.leaves = true;
+    sight.distance = leaving;
+  }
+  return sight;
+}
+
+Coefficient PlainSurfaces::passing(const V3d& to, const V3d& from, SurfaceId start) const {
+  const V3d between = from - to;
+  const double distance = between.length();
+  if (!(distance > 0)) return {};
   const V3d direction = between / distance;
-  if (tracer_.isClear(from, direction, end)) return Coefficient(1);
+  if (portals_.isLeft(to, direction, distance)) return {};
+  return passingToSource(to, direction, distance, start);
+}
+
+Coefficient PlainSurfaces::passingToSource(const V3d& to, const V3d& direction, double distance,
+                                           SurfaceId start) const {
+  const double end = distance * (1 - kEnd) - 2 * kSamePlace;
+  if (!(end > 0)) return {};
+  if (tracer_.isClear(to, direction, end)) return Coefficient(1);
   if (!hasPanes_) return {};
-  const Sight sight = look(from, direction, end, start);
+  const Sight sight = straight(to, direction, end, start);
   return sight.hit.surface == kNone ? sight.passed : Coefficient();
 }
 

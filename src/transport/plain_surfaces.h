@@ -3,12 +3,14 @@
 // vertex_light.h):
 // - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
 //   patterns, if these are the same for all rays;
-// - local sources at which shadow rays can be aimed, and their images in mirrors.
+// - local sources at which shadow rays can be aimed, and their images in mirrors;
+// - in scenes without these, distant sources, and all light that enters through portals (portals.h).
 // Paths from both ends estimate the light of known sources that has met only known surfaces. Paths from the
 // eye (path_tracer.h) estimate all other light. All code uses this definition of "known", so that each light
 // path is estimated by exactly one method, or by several with weights that add up to 1.
 #include <vector>
 
+#include "transport/portals.h"
 #include "transport/prepared_scene.h"
 
 namespace rsphere {
@@ -24,11 +26,12 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// The first hit along a straight line that is not a pane of glass.
+// The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal first.
 struct Sight {
   Hit hit;                // its distance is that from the last pane
   double distance = 0;    // of the hit from the line's start, world units
   Coefficient passed{1};  // fraction of the light that the panes in between transmit
+  bool leaves = false;    // through a portal, at this distance
 };
 
 // The material of a finish (scene/surface_list.h) as seen by bidirectional estimation. At most one is not
@@ -43,7 +46,8 @@ struct PlainFinish {
 // Shared by all threads. Keeps references to the scene and its tracer.
 class PlainSurfaces {
  public:
-  explicit PlainSurfaces(const PreparedScene& prepared);
+  // portals: none if daylight is not known.
+  explicit PlainSurfaces(const PreparedScene& prepared, Portals portals = {});
 
   // The reason why paths from both ends cannot be used or would provide too little light; null if they can be
   // used.
@@ -67,6 +71,13 @@ class PlainSurfaces {
     return f.opaque || f.pane || f.mirror;
   }
   bool knows(LightId source) const { return knownSources_[source]; }
+  bool haveSources() const { return hasKnownSources_; }  // known ones
+  // Whether paths from both ends bring the light of a source that arrives at a point straight from a direction
+  // (unit): that of distant sources only through portals.
+  bool bringsLightOf(LightId source, const V3d& point, const V3d& direction) const {
+    return knows(source) && (portals_.empty() || portals_.isLeft(point, direction, kFarAway));
+  }
+  const Portals& portals() const { return portals_; }
   bool isFlat(SurfaceId surface) const;  // Interaction::flat
   // The radiance (W/sr/m2) that a known real source sends from a point on it. normal: of its front at the
   // point (unit). direction: of the ray that hits the point (unit).
@@ -77,18 +88,22 @@ class PlainSurfaces {
   double weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                std::vector<double>& weights) const;
 
-  // Follows a straight line through panes of glass. direction: unit. start: the surface on which the line
-  // starts, or kNone.
+  // Follows a straight line through panes of glass, up to a portal. direction: unit. start: the surface on
+  // which the line starts, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   // The transmittance of the panes on the straight line between two places (world); black if anything else
-  // lies between them. start: as in look().
-  Coefficient passing(const V3d& from, const V3d& to, SurfaceId start) const;
+  // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`, as in
+  // look().
+  Coefficient passing(const V3d& to, const V3d& from, SurfaceId start) const;
+  // The same from a source in a direction (unit), regardless of portals.
+  Coefficient passingToSource(const V3d& to, const V3d& direction, double distance, SurfaceId start) const;
 
   // The place that is hit by a line from `origin` in a direction, given the result of look().
   PlainPlace placeOf(const V3d& origin, const V3d& direction, const Sight& sight,
                      FunctionScratch& scratch) const;
 
  private:
+  Sight straight(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   void findSources();
   bool isKnown(LightId source) const;
   void findSurfaces();
@@ -98,6 +113,7 @@ class PlainSurfaces {
   const PreparedScene& prepared_;
   const Scene& scene_;
   const Tracer& tracer_;
+  Portals portals_;
   std::vector<PlainFinish> finishes_;
   ById<LightId, bool> knownSources_;
   Coverage coverage_;

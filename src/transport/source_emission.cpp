@@ -12,6 +12,10 @@ namespace {
 
 using Tuning = tuning::SourceEmission;
 
+const Distant& distantOf(const Scene& scene, const LightSource& light) {
+  return *scene.surfaces[light.surface].shape.as<Distant>();
+}
+
 // A random direction (unit), uniform within a cone of this solid angle (sr).
 V3d withinCone(const V3d& axis, double solidAngle, Random& random) {
   const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
@@ -31,6 +35,13 @@ SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurface
   for (const LightId i : lights.ids()) {
     Sender& s = senders_[i];
     if (!surfaces.knows(i) || lights[i].isVirtual()) continue;
+    if (lights[i].isDistant()) {
+      s.even = true;
+      s.area = surfaces.portals().areaTowards(-lights[i].center);
+      s.power = brightness(*prepared.lights().constantRadiance(i)) * distantOf(scene, lights[i]).solidAngle *
+                s.area;
+      continue;
+    }
     s.area = areaOf(scene.surfaces[lights[i].surface].shape, scene.vertices);
     s.even = prepared.lights().constantRadiance(i) && !lights[i].spot;
     s.power = s.even ? powerOf(scene, lights[i], 0) : triedPower(i);
@@ -45,11 +56,12 @@ void SourceEmission::share() {
     s.upTo = sum += s.power * s.factor;
     power += s.power;
   }
+  if (!(sum > 0)) return;
   const auto paths = static_cast<double>(paths_);
   for (Sender& s : senders_) {
     s.upTo = s.upTo < sum ? s.upTo / sum : 1;
     s.factor *= power / sum;
-    if (s.even) s.density = s.power * s.factor / s.area * paths / power;
+    if (s.even && s.area > 0) s.density = s.power * s.factor / s.area * paths / power;
   }
   pathPower_ = power / paths;
 }
@@ -83,6 +95,7 @@ LightId SourceEmission::sourceAt(double share) const {
 SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
                                               FunctionScratch& scratch) const {
   const Sender& sender = senders_[source];
+  if (prepared_.lights().all()[source].isDistant()) return leaveDistant(source, random);
   const size_t tries = sender.even ? 1 : tuning::VertexLight::kCandidates;
   Leaving chosen;
   double sum = 0;
@@ -97,6 +110,23 @@ SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
   if (!sender.even)
     chosen.power = chosen.power * (kPi * sender.area * sum / (static_cast<double>(tries) * sender.power));
   return chosen;
+}
+
+SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, Random& random) const {
+  const Sender& sender = senders_[source];
+  const LightSource& light = prepared_.lights().all()[source];
+  const Portals& portals = surfaces_.portals();
+  const V3d towards = withinCone(light.center, distantOf(prepared_.scene(), light).solidAngle, random);
+  const double area = portals.areaTowards(-towards);
+  Leaving way;
+  way.direction = way.from.normal = -towards;
+  if (!(area > 0)) return way;
+  const V3d at = portals.pointTowards(way.direction, random);
+  way.from.point = at;
+  const Radiance& radiance = *prepared_.lights().constantRadiance(source);
+  way.power = Irradiance(radiance.color * surfaces_.passingToSource(at, towards, kFarAway, kNone).color *
+                         (pathPower_ / (sender.factor * brightness(radiance)) * area / sender.area));
+  return way;
 }
 
 SourceEmission::Way SourceEmission::way(LightId source, Random& random, FunctionScratch& scratch) const {
@@ -148,6 +178,7 @@ static_assert(kLightForms == 8, "Where are shadow rays aimed?");
 // unknown. distance: from the place to the point. cosine: between the ray and the normal at that point.
 double SourceEmission::aimedDensity(LightId light, double distance, double cosine) const {
   const LightSource& source = prepared_.lights().all()[light];
+  if (source.isDistant()) return 1;
   if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
   if (!source.as<BallLight>()) return 0;
   // Shadow rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its
@@ -160,6 +191,11 @@ double SourceEmission::aimedDensity(LightId light, double distance, double cosin
 
 double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& normal,
                                       double probability) const {
+  if (prepared_.lights().all()[sample.source].isDistant()) {
+    const Sender& sender = senders_[sample.source];
+    const double lightPaths = sender.density * sender.area * normal.dot(sample.direction);
+    return lightPaths > 0 ? probability * surfaces_.portals().areaTowards(-sample.direction) / lightPaths : 0;
+  }
   const double cosine = std::abs(sample.cosine), d = sample.distance;
   const double lightPaths =
       senders_[sample.source].density * cosine / kPi * normal.dot(sample.direction) / (d * d);

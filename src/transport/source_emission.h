@@ -1,5 +1,6 @@
 #pragma once
 // Starts light paths on known sources (plain_surfaces.h). The number from each is proportional to its power.
+// Paths of distant sources start on portals (portals.h), by projected area.
 //
 // An "even" source emits the same radiance from all points in all directions. Spotlights are not even, nor
 // are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates (a
@@ -23,7 +24,8 @@ class SourceEmission {
   // source is preferred.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
 
-  // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources.
+  // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources. Of a
+  // distant source: the power that enters through portals if nothing hides it.
   double power(LightId source) const { return senders_[source].power; }
 
   // The source of the path at this position (0 to 1) in the sequence of all paths, which is ordered by
@@ -31,7 +33,7 @@ class SourceEmission {
   LightId sourceAt(double share) const;
 
   struct Leaving {
-    SurfacePoint from;
+    SurfacePoint from;       // of a distant source, on a portal, facing the way that the light goes
     V3d direction{0, 0, 1};  // unit
     Irradiance power;        // of the path, W
   };
@@ -60,7 +62,7 @@ class SourceEmission {
     // Its number of paths per power, relative to the mean of all sources; 1 without preference.
     double factor = 1;
     double density = 0;  // of paths that start on it (1/m2); 0: not even
-    double area = 0;     // m2
+    double area = 0;     // m2; of a distant source, the projected area of the portals
     bool even = false;
   };
   // A candidate for the start of a light path.
@@ -71,6 +73,7 @@ class SourceEmission {
     double weight = 1;  // density of a diffuse emitter's light here, divided by the density of candidates
   };
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;
+  Leaving leaveDistant(LightId source, Random& random) const;
   double triedPower(LightId source) const;
   double aimedDensity(LightId source, double distance, double cosine) const;
   void share();

@@ -107,8 +107,10 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
-      state_.request.vertexLight->surfaces().knows(end.hit.surface))
+      state_.request.vertexLight->surfaces().knows(end.hit.surface) && !leavesThroughPortal(end)) {
     end.known = end.context.known;
+    end.unjoinedShare = end.context.unjoinedShare;
+  }
   if (!surface.goal || end.hit.cosine < 0) return shadeChain(end, surface.modifier, result);
   RayEnd ofGoal = end;
   RayResult emitted;
@@ -262,6 +264,13 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
 
 namespace {
 
+// The distance from the last diffuse surface, or from the eye.
+double lengthSinceDiffuse(const RayEnd& end) {
+  const PathContext* ray = &end.context;
+  while (!(ray->kind & kAmbient) && ray->parent) ray = &ray->parent->context;
+  return end.context.pathLength - ray->pathLength + end.hit.length;
+}
+
 // Whether the path from the eye, or from the last diffuse surface, to the end of a ray contains a reflection.
 bool isMirrored(const PathContext& context) {
   for (const PathContext* ray = &context; !(ray->kind & kAmbient) && ray->parent; ray = &ray->parent->context)
@@ -270,6 +279,19 @@ bool isMirrored(const PathContext& context) {
 }
 
 }  // namespace
+
+bool SurfaceShading::leavesThroughPortal(const RayEnd& end) const {
+  return state_.request.vertexLight->surfaces().portals().isLeft(end.ray.origin, end.ray.direction,
+                                                                 end.hit.length);
+}
+
+// Shadow rays are left out at their source (DirectLight). Rays that the eye sees straight or in reflections
+// bring what is outdoors; so do reflections that light vertices are not joined through.
+bool SurfaceShading::leftToPortals(const RayEnd& end) const {
+  const PathContext& ray = end.context;
+  return ray.ambientLevel > 0 && !(ray.kinds & kShadow) && leavesThroughPortal(end) &&
+         !(ray.known == Known::unjoined && isMirrored(ray));
+}
 
 SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   if (end.known == Known::no) return {};
@@ -304,13 +326,40 @@ double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   return state_.random.uniform() < probability ? 1 / probability : 0;
 }
 
+// What the rays of a gather look for at a place whose light paths from both ends bring. By daylight, vertices
+// that a reflection lights are not joined to near surfaces.
+void SurfaceShading::setKnownBeyond(RayEnd& end, const FromBothEnds& both) const {
+  end.known = both.indirectHere ? Known::unjoined : Known::joined;
+  if (both.indirectHere || both.indirect->portals().empty() || end.context.ambientLevel == 0) return;
+  if (isMirrored(end.context)) {
+    end.unjoinedShare = 0;
+    return;
+  }
+  end.known = Known::unjoined;
+  end.unjoinedShare *= state_.request.vertexLight->vertices().nearLight().share(lengthSinceDiffuse(end));
+}
+
 void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
                                      Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
   const SurfaceId surface = end.hit.surface;
   const PlainPlace at{end.hit.point, normal, light.surfaces().finishOf(surface).opaque, surface};
-  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel},
-                                          state_.random, scratch_);
+  const auto beyond = [&](const V3d& origin, const V3d& direction, int bounces, Random&) {
+    const RayQuery ray{.origin = origin, .direction = direction};
+    PathContext context{.kind = kReflectedAmbient,
+                        .kinds = end.context.kinds | kReflectedAmbient,
+                        .weight = end.context.weight * kMeanReflectance * kMeanReflectance,
+                        .level = end.context.level + 1,
+                        .depth = end.context.depth + 1,
+                        .ambientLevel = bounces};
+    context.space = end.space();
+    return follower_.follow(ray, context).value;
+  };
+  const OutdoorRadiance outdoors(beyond);
+  scratch_.outdoors = &outdoors;
+  value +=
+      coefficient * end.context.unjoinedShare *
+      light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel}, state_.random, scratch_);
 }
 
 void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
@@ -319,7 +368,8 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown s
   const SurfaceId hit = end.hit.surface;
   const PlainPlace at{end.hit.point,     normal,         known.finishOf(hit).opaque, hit,
                       known.isFlat(hit), end.hit.pattern};
-  value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
+  value += end.context.unjoinedShare *
+           light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
 // The light that a surface scatters towards the ray's origin: sharp paths and lobes, then the indirect and
@@ -332,7 +382,7 @@ bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   if (both.directHere != Shown::none)
     addFromSource(end, scattering.trueNormal(), both.directHere, result.value);
   const bool shares = estimateLobes(end, scattering, !both.direct, result);
-  if (both.indirect) end.known = both.indirectHere ? Known::unjoined : Known::joined;
+  if (both.indirect) setKnownBeyond(end, both);
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())

@@ -120,6 +120,16 @@ struct Openings {
   static constexpr double kFilled = .5;
 };
 
+// Openings as light sources of paths from both ends (portals.cpp).
+struct Portals {
+  // An opening of less than this fraction of the radiance of the brightest one is no portal: its light is left
+  // to paths from the eye. Rays to a false opening, such as a hole in the plane of the desk tops of a
+  // classroom, would be lost.
+  RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
+  // The fraction of the rays for the light of portals that are aimed at them.
+  RSPHERE_TUNED(Portals, double, kAimed, .75);
+};
+
 // The control variate of sphere mode (radiance_guess.cpp).
 struct RadianceGuess {
   // If a source adds more than this many times the mean guess at a place, a shadow ray to the middle of the

@@ -20,12 +20,12 @@ struct LightVertex;
 class VertexClusters {
  public:
   // An order of the vertices in which the vertices of each cluster are consecutive. They are near each other
-  // and have similar normals.
+  // and have similar normals. uneven: a small part of them may have most of the power.
   struct Order {
     std::vector<uint32_t> vertices;
     std::vector<uint32_t> ends;  // for each cluster, the index after its last vertex
   };
-  static Order orderOf(std::span<const LightVertex> vertices);
+  static Order orderOf(std::span<const LightVertex> vertices, bool uneven = false);
 
   // The bounding box of each cluster.
   static std::vector<Box3d> boxesOf(std::span<const LightVertex> vertices, std::span<const uint32_t> ends);

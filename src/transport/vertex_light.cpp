@@ -38,10 +38,10 @@ std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const L
 }  // namespace
 
 VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces,
-                         SourceEmission emission, size_t paths, uint64_t seed)
+                         SourceEmission emission, size_t paths, uint64_t seed, const OutdoorParts* outdoors)
     : prepared_(prepared),
       surfaces_(surfaces),
-      vertices_(prepared, surfaces, std::move(emission), paths, seed),
+      vertices_(prepared, surfaces, std::move(emission), paths, seed, outdoors),
       clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.nearLight().width,
                 hiddenClusters(prepared, vertices_)) {}
 
@@ -78,7 +78,9 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
 
 // The transmittance between the place and a source sample; black if occluded.
 Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sample) const {
-  const SurfaceId source = prepared_.lights().all()[sample.source].surface;
+  if (!surfaces_.bringsLightOf(sample.source, at.point, sample.direction)) return {};
+  const LightSource& light = prepared_.lights().all()[sample.source];
+  const SurfaceId source = light.isDistant() ? SurfaceId() : light.surface;
   switch (
       prepared_.tracer().shadow(at.point, sample.direction, sample.distance, source, nullptr, at.surface)) {
     case Shadow::clear:
@@ -86,7 +88,9 @@ Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sampl
     case Shadow::blocked:
       return {};
     default:
-      return surfaces_.passing(at.point, at.point + sample.distance * sample.direction, at.surface);
+      return light.isDistant()
+                 ? surfaces_.passingToSource(at.point, sample.direction, sample.distance, at.surface)
+                 : surfaces_.passing(at.point, at.point + sample.distance * sample.direction, at.surface);
   }
 }
 
@@ -156,7 +160,22 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
                                  Scratch& scratch) const {
   if (how.bounces < 1) return {};
   const Radiance far = ofVertices(at, how, random);
-  return far + ofNear(at, how, random, scratch);
+  const Radiance near = far + ofNear(at, how, random, scratch);
+  return surfaces_.portals().empty() ? near : near + ofPortals(at, how, random, scratch);
+}
+
+// Light that enters through portals and arrives straight, or through panes.
+Radiance VertexLight::ofPortals(const PlainPlace& at, const Indirect& how, Random& random,
+                                Scratch& scratch) const {
+  const PortalDirections::Sample ray =
+      PortalDirections(surfaces_.portals(), at.point, at.normal).draw(random);
+  if (!(ray.share > 0)) return {};
+  const Sight sight = surfaces_.look(at.point, ray.direction, kFarAway, at.surface);
+  if (!sight.leaves) return {};
+  const int bounces = prepared_.options().ambientBounces - how.bounces + 1;
+  return sight.passed *
+         (*scratch.outdoors)(at.point + sight.distance * ray.direction, ray.direction, bounces, random) *
+         ray.share;
 }
 
 // Resampled importance sampling: among candidates that are sampled from the clusters, some are selected for a

@@ -16,9 +16,10 @@ namespace rsphere {
 // Shared by all threads; constant. Keeps references.
 class VertexLight {
  public:
-  // emission, paths, seed: of the light paths. REQUIRES that PlainSurfaces::obstacle() found none.
+  // emission, paths, seed: of the light paths. outdoors: null without portals. REQUIRES that
+  // PlainSurfaces::obstacle() found none.
   VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
-              size_t paths, uint64_t seed);
+              size_t paths, uint64_t seed, const OutdoorParts* outdoors = nullptr);
 
   const PlainSurfaces& surfaces() const { return surfaces_; }
   const LightVertices& vertices() const { return vertices_; }
@@ -28,6 +29,7 @@ class VertexLight {
     std::vector<double> weights;
     std::vector<SourceSample> samples;
     FunctionScratch functions;
+    const OutdoorRadiance* outdoors = nullptr;  // during a call, unless there are no portals
   };
 
   // A place that is seen along a sampled direction from the eye. Its direct light is also estimated by
@@ -78,6 +80,7 @@ class VertexLight {
   Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
   Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofVertex(const PlainPlace& at, size_t i) const;
+  Radiance ofPortals(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
   Radiance ofNear(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
   const PreparedScene& prepared_;

@@ -1,0 +1,22 @@
+#pragma once
+// The light beyond portals (portals.h), as paths from the eye find it. An interface, because path_tracer.h
+// itself uses the paths from both ends.
+#include <cstdint>
+#include <vector>
+
+#include "base/radiometry.h"
+#include "scene/random.h"
+#include "scene/shape.h"
+#include "transport/function_ref.h"
+
+namespace rsphere {
+
+// The radiance (W/sr/m2) along an indirect ray. bounces: diffuse bounces that have led to it.
+using OutdoorRadiance =
+    FunctionRef<Radiance(const V3d& origin, const V3d& direction, int bounces, Random& random)>;
+
+// The same, divided by the diffuse bounces that follow: element i of the result is the light after i of them.
+using OutdoorParts = FunctionRef<void(const V3d& origin, const V3d& direction, int bounces, Random& random,
+                                      std::vector<Radiance>& parts)>;
+
+}  // namespace rsphere

@@ -1,0 +1,113 @@
+#include "transport/portals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "shade/scattering.h"
+
+namespace rsphere {
+namespace {
+
+using Tuning = tuning::Portals;
+
+// Whether a line through a point meets the rectangle, given where it meets its plane.
+bool contains(const Rectangle& r, const V3d& at) {
+  const V3d from = at - r.corner;
+  const double u = from.dot(r.x), v = from.dot(r.y);
+  return u >= 0 && v >= 0 && u <= r.width && v <= r.height;
+}
+
+}  // namespace
+
+Portals::Portals(const Openings& openings, double size) : lift_(std::max(1e-6 * size, 8 * kSamePlace)) {
+  double brightest = 0;
+  for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);
+  for (const auto& [place, radiance] : openings.views()) {
+    if (radiance < Tuning::kLeastRadiance * brightest) continue;
+    Portal portal{place, radiance};
+    portal.corner -= lift_ * portal.normal;
+    portals_.push_back(portal);
+  }
+}
+
+double Portals::leaving(const V3d& origin, const V3d& direction, double farthest) const {
+  double nearest = farthest;
+  for (const Portal& p : portals_) {
+    const double cosine = -direction.dot(p.normal);
+    if (!(cosine > 0)) continue;
+    const double distance = (origin - p.corner).dot(p.normal) / cosine;
+    if (distance >= 0 && distance < nearest && contains(p, origin + distance * direction)) nearest = distance;
+  }
+  return nearest < farthest ? nearest : kFarAway;
+}
+
+double Portals::areaTowards(const V3d& direction) const {
+  double sum = 0;
+  for (const Portal& p : portals_) sum += std::max(0., direction.dot(p.normal)) * p.area();
+  return sum;
+}
+
+V3d Portals::pointTowards(const V3d& direction, Random& random) const {
+  double due = random.uniform() * areaTowards(direction);
+  const Portal* chosen = nullptr;
+  for (const Portal& p : portals_) {
+    const double area = std::max(0., direction.dot(p.normal)) * p.area();
+    if (area > 0) chosen = &p;
+    if (due < area) break;
+    due -= area;
+  }
+  const double u = random.uniform(), v = random.uniform();
+  return chosen->at(u, v);
+}
+
+PortalDirections::PortalDirections(const Portals& portals, const V3d& point, const V3d& normal)
+    : point_(point), normal_(normal) {
+  double sum = 0;
+  for (const Portal& p : portals.all()) {
+    const double distance = (point - p.corner).dot(p.normal);
+    if (!(distance > 0)) continue;
+    // The light is estimated from the corners' mean height above the place, 0 for those below.
+    double height = 0;
+    for (int c = 0; c < 4; ++c) {
+      const V3d to = p.at(c & 1, c >> 1) - point;
+      height += std::max(0., to.dot(normal)) / (4 * to.length());
+    }
+    if (!(height > 0)) continue;
+    const SphericalRectangle shape(point, p);
+    if (!(shape.solidAngle() > 0)) continue;
+    sum += height * shape.solidAngle() * p.radiance;
+    seen_.push_back({&p, shape, sum});
+  }
+  for (Seen& s : seen_) s.upTo /= sum;
+  if (sum > 0) aimed_ = Tuning::kAimed;
+}
+
+double PortalDirections::density(const V3d& direction) const {
+  double sum = 0, before = 0;
+  for (const Seen& s : seen_) {
+    const double share = s.upTo - before, cosine = -direction.dot(s.portal->normal);
+    before = s.upTo;
+    if (!(cosine > 0)) continue;
+    const double distance = (point_ - s.portal->corner).dot(s.portal->normal) / cosine;
+    if (contains(*s.portal, point_ + distance * direction)) sum += share / s.shape.solidAngle();
+  }
+  return sum;
+}
+
+PortalDirections::Sample PortalDirections::draw(Random& random) const {
+  Sample sample;
+  const double u = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
+  if (u < aimed_) {
+    const auto chosen =
+        std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u / aimed_ < s.upTo; });
+    sample.direction = chosen->shape.sample(u1, u2);
+  } else {
+    sample.direction = diffuseDirection(normal_, u1, u2);
+  }
+  const double even = normal_.dot(sample.direction) / kPi;
+  if (even > 0) sample.share = even / (aimed_ * density(sample.direction) + (1 - aimed_) * even);
+  return sample;
+}
+
+}  // namespace rsphere

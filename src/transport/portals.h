@@ -1,0 +1,76 @@
+#pragma once
+// Openings (openings.h) as the light sources of paths from both ends. A path from the eye that leaves through
+// a portal, from its dark side to its bright side, ends there: all light that comes from beyond is light of
+// the portal, however it got there. So no path of light is counted twice, whatever is outdoors.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/random.h"
+#include "transport/openings.h"
+#include "transport/spherical_rectangle.h"
+
+namespace rsphere {
+
+// A portal lies a little outside of its opening, so that a pane in the opening belongs to the room, whatever
+// rounding does.
+struct Portal : Rectangle {
+  double radiance = 0;  // expected of the light that enters (W/sr/m2, of brightness)
+};
+
+class Portals {
+ public:
+  Portals() = default;
+  // size: the largest side of the scene's box (world units).
+  Portals(const Openings& openings, double size);
+
+  bool empty() const { return portals_.empty(); }
+  std::span<const Portal> all() const { return portals_; }
+  // How far the portals lie outside of their openings (world units).
+  double lift() const { return lift_; }
+
+  // The distance at which a straight line first leaves through a portal; kFarAway if it does not within
+  // `farthest`.
+  double leaving(const V3d& origin, const V3d& direction, double farthest) const;
+  bool isLeft(const V3d& origin, const V3d& direction, double farthest) const {
+    return leaving(origin, direction, farthest) < farthest;
+  }
+
+  // The projected area (square world units) of the portals for light that enters in this direction (unit);
+  // and a point on them, uniform by projected area. The point REQUIRES an area above 0.
+  double areaTowards(const V3d& direction) const;
+  V3d pointTowards(const V3d& direction, Random& random) const;
+
+ private:
+  std::vector<Portal> portals_;
+  double lift_ = 0;
+};
+
+// Directions over the hemisphere of a place for the light of portals: some to the portals, the others
+// distributed like the light of a diffuse surface (one-sample multiple importance sampling with the balance
+// heuristic).
+class PortalDirections {
+ public:
+  // normal: unit. Keeps a reference to the portals.
+  PortalDirections(const Portals& portals, const V3d& point, const V3d& normal);
+
+  struct Sample {
+    V3d direction;     // unit
+    double share = 0;  // of the mean over the hemisphere; 0: the direction lies below it
+  };
+  Sample draw(Random& random) const;
+
+ private:
+  struct Seen {
+    const Portal* portal;
+    SphericalRectangle shape;
+    double upTo;  // cumulative probability
+  };
+  double density(const V3d& direction) const;
+
+  V3d point_, normal_;
+  double aimed_ = 0;  // share of the directions
+  std::vector<Seen> seen_;
+};
+
+}  // namespace rsphere

@@ -1,0 +1,43 @@
+#include "transport/sky_emission.h"
+
+#include "base/constants.h"
+#include "transport/light_particles.h"
+
+namespace rsphere {
+
+SkyEmission::SkyEmission(const Portals& portals, double paths) : portals_(portals) {
+  if (!(paths > 0)) return;
+  for (const Portal& p : portals.all()) pathPower_ += kPi * p.area() * p.radiance / paths;
+}
+
+SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, OutdoorParts outdoors) const {
+  double sum = 0;
+  for (const Portal& p : portals_.all()) sum += p.area() * p.radiance;
+  double due = where * sum;
+  const Portal* portal = portals_.all().data();
+  for (const Portal* const last = portal + portals_.all().size() - 1; portal < last; ++portal)
+    if ((due -= portal->area() * portal->radiance) < 0) break;
+  Leaving way;
+  const double u = random.uniform(), v = random.uniform();
+  // Between the portal and a pane in the opening.
+  way.origin = portal->at(u, v) + .5 * portals_.lift() * portal->normal;
+  way.direction = sentFrom(portal->normal, random);
+  if (most < 1) return way;
+  // Two bounces precede the light outdoors, as a path from the eye counts: the one at the first surface that the
+  // path reaches, and the one at a surface that this lights.
+  std::vector<Radiance> parts;
+  outdoors(portal->at(u, v), -way.direction, 2, random, parts);
+  double all = 0;
+  for (const Radiance& part : parts) all += std::max(0., brightness(part));
+  double left = random.uniform() * all;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const double bright = std::max(0., brightness(parts[i]));
+    if ((left -= bright) >= 0 || !(bright > 0)) continue;
+    way.power = Irradiance(parts[i].color * (pathPower_ / portal->radiance * all / bright));
+    way.bounces = static_cast<int>(i) + 1;
+    break;
+  }
+  return way;
+}
+
+}  // namespace rsphere
