@@ -949,8 +949,11 @@ void addWeightOptions(const Add& add) {
            "glances, rays that only find a surface. There are two cases. If all surfaces and sources are "
            "suitable, glances are combined with light paths from the sources, whatever -aa is. Suitable are "
            "surfaces of plastic, metal, glass and curved mirrors without patterns, textures and mixtures, "
-           "and sources without patterns that are not distant. Otherwise glances are used for a control "
-           "variate, but not by daylight. With h and v, light sources are treated like other surfaces.",
+           "and sources without patterns that are not distant. The same is done in rooms without lamps "
+           "that daylight enters through windows or holes in walls, where -aa is 0: light paths from the "
+           "openings carry the light of sun, sky and ground; points outdoors are excepted. Otherwise "
+           "glances are used for a control variate, but not by daylight. With h and v, light sources are "
+           "treated like other surfaces.",
        .line = weightsLine});
 }
 
