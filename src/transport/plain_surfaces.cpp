@@ -139,10 +139,11 @@ void PlainSurfaces::findSurfaces() {
 
 const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
-  for (const auto& modifier : scene_.modifiers)
-    if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
-  if (!portals_.empty())
+  if (!portals_.empty()) {
+    for (const auto& modifier : scene_.modifiers)
+      if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
     return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
+  }
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!hasKnownSources_) return "no known sources";
   // With an unknown surface (a sheet of paper or a crystal ball in an open-plan office), bidirectional

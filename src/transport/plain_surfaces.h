@@ -26,7 +26,8 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal first.
+// The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal
+// first.
 struct Sight {
   Hit hit;                // its distance is that from the last pane
   double distance = 0;    // of the hit from the line's start, world units
@@ -72,8 +73,8 @@ class PlainSurfaces {
   }
   bool knows(LightId source) const { return knownSources_[source]; }
   bool haveSources() const { return hasKnownSources_; }  // known ones
-  // Whether paths from both ends bring the light of a source that arrives at a point straight from a direction
-  // (unit): that of distant sources only through portals.
+  // Whether paths from both ends estimate the light of a source that arrives at a point straight from a
+  // direction (unit): that of distant sources only through portals.
   bool bringsLightOf(LightId source, const V3d& point, const V3d& direction) const {
     return knows(source) && (portals_.empty() || portals_.isLeft(point, direction, kFarAway));
   }

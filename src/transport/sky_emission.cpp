@@ -23,8 +23,8 @@ SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, 
   way.origin = portal->at(u, v) + .5 * portals_.lift() * portal->normal;
   way.direction = sentFrom(portal->normal, random);
   if (most < 1) return way;
-  // Two bounces precede the light outdoors, as a path from the eye counts: the one at the first surface that the
-  // path reaches, and the one at a surface that this lights.
+  // Two bounces precede the light outdoors, as a path from the eye counts: the one at the first surface that
+  // the path reaches, and the one at a surface that this lights.
   std::vector<Radiance> parts;
   outdoors(portal->at(u, v), -way.direction, 2, random, parts);
   double all = 0;

@@ -24,8 +24,8 @@ class SourceEmission {
   // source is preferred.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
 
-  // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources. Of a
-  // distant source: the power that enters through portals if nothing hides it.
+  // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources. For
+  // a distant source: the power that enters through portals if nothing hides it.
   double power(LightId source) const { return senders_[source].power; }
 
   // The source of the path at this position (0 to 1) in the sequence of all paths, which is ordered by

@@ -17,8 +17,14 @@ class SphericalRectangle {
   V3d sample(double u, double v) const;
 
  private:
-  V3d x_, y_, z_;  // frame whose z axis points away from the rectangle
-  double x0_, y0_, x1_, y1_, z0_;
+  struct Frame {
+    V3d x, y, z;  // z points away from the rectangle
+  };
+  struct Sides {
+    double x0, y0, x1, y1, z;  // in the frame, relative to the point
+  };
+  Frame frame_;
+  Sides sides_;
   double b0_ = 0, b1_ = 0, turned_ = 0;
   double solidAngle_ = 0;
 };

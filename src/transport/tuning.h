@@ -122,8 +122,8 @@ struct Openings {
 
 // Openings as light sources of paths from both ends (portals.cpp).
 struct Portals {
-  // An opening of less than this fraction of the radiance of the brightest one is no portal: its light is left
-  // to paths from the eye. Rays to a false opening, such as a hole in the plane of the desk tops of a
+  // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the
+  // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
   // classroom, would be lost.
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
   // The fraction of the rays for the light of portals that are aimed at them.

@@ -14,8 +14,8 @@ namespace {
 // 1.5 m wide and .8 m high, at a distance of .7 m from the origin and aside of it.
 Rectangle window() { return {V3d(-.2, .7, -.3), V3d(1, 0, 0), V3d(0, 0, 1), V3d(0, -1, 0), 1.5, .8}; }
 
-// The integral of the direction over the rectangle's solid angle is that of Lambert's formula: half the sum of
-// the angles of the sides times the normals of the planes through the point and a side.
+// The integral of the direction over the rectangle's solid angle is that of Lambert's formula: half the sum
+// of the angles of the sides times the normals of the planes through the point and a side.
 V3d lightVector(const Rectangle& r, const V3d& point) {
   const std::array<V3d, 4> corners{r.at(0, 0) - point, r.at(1, 0) - point, r.at(1, 1) - point,
                                    r.at(0, 1) - point};
@@ -46,7 +46,8 @@ TEST(SphericalRectangle, SamplesUniformlyBySolidAngle) {
   }
 }
 
-// Half the side lengths a and b, seen from a distance d over the middle: 4 asin(ab / sqrt((a2 + d2)(b2 + d2))).
+// With half the side lengths a and b, seen from a distance d over the middle:
+// 4 asin(ab / sqrt((a2 + d2)(b2 + d2))).
 TEST(SphericalRectangle, HasTheSolidAngleOfTheClosedForm) {
   const Rectangle r = window();
   for (const double d : {1e-3, .1, 1., 50.}) {
