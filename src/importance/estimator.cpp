@@ -187,55 +187,64 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
       base_(makeBaseSet(options, transport.prepared().options().sampling,
                         standardError || options.accuracy > 0)),
       sources_(transport.prepared()),
-      glances_(glancesFor(transport.prepared(), options, base_)),
-      tracing_{transport.prepared(), cachesFor(transport, glances_ != nullptr)} {
+      usual_(usualMethod(transport, options, base_)) {
   const PreparedScene& prepared = transport.prepared();
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
-  if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
-    if (glances_)
-      tracing_.vertexLight = glances_->lightOfAll();
-    else
-      tracing_.ofPoints = findAimsOfPoints(prepared);
-    tracing_.aims = joined(aimsFor(transport, glances_ != nullptr), tracing_.ofPoints);
-  }
-  strategy_ = makeStrategy();
+  usual_.strategy = makeStrategy();
   makeDaylit();
   if (options.accuracy > 0)
-    dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(tracing_, sources_);
+    dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(usual_.tracing, sources_);
+}
+
+SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport, const SphereOptions& options,
+                                                     const BaseSet& base) {
+  auto glances = glancesFor(transport.prepared(), options, base);
+  const bool haveVertices = glances != nullptr;
+  SphereTracing tracing{transport.prepared(), cachesFor(transport, haveVertices)};
+  if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
+    if (haveVertices)
+      tracing.vertexLight = glances->lightOfAll();
+    else
+      tracing.ofPoints = findAimsOfPoints(transport.prepared());
+    tracing.aims = joined(aimsFor(transport, haveVertices), tracing.ofPoints);
+  }
+  return {std::move(glances), std::move(tracing)};
 }
 
 void SphereEstimator::makeDaylit() {
-  if (glances_ || options_.weights != Weights::silhouettes || !(options_.densityFactor > 0)) return;
-  auto glances = DiffuseGlances::makeDaylit(tracing_, options_, base_);
+  if (usual_.glances || options_.weights != Weights::silhouettes || !(options_.densityFactor > 0)) return;
+  auto glances = DiffuseGlances::makeDaylit(usual_.tracing, options_, base_);
   if (!glances) return;
-  SphereTracing tracing{tracing_.prepared, tracing_.caches, tracing_.aims, glances->lightOfAll()};
+  const SphereTracing& usual = usual_.tracing;
+  SphereTracing tracing{usual.prepared, usual.caches, usual.aims, glances->lightOfAll()};
   tracing.aims.spots = nullptr;
-  daylit_ = std::make_unique<Daylit>(Daylit{std::move(glances), std::move(tracing), nullptr});
+  daylit_ = std::make_unique<Method>(Method{std::move(glances), std::move(tracing)});
   daylit_->strategy = std::make_unique<SilhouetteWeights>(daylit_->tracing, options_, base_, special_,
                                                           sources_, daylit_->glances.get());
 }
 
 const SamplingStrategy& SphereEstimator::strategyFor(const V3d& point) const {
-  return daylit_ && daylit_->glances->suit(point) ? *daylit_->strategy : *strategy_;
+  return daylit_ && daylit_->glances->suit(point) ? *daylit_->strategy : *usual_.strategy;
 }
 
-double SphereEstimator::sharedError() const { return coarseError(tracing_); }
+double SphereEstimator::sharedError() const { return coarseError(usual_.tracing); }
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
   switch (options_.weights) {
     case Weights::homogeneous:
       return std::make_unique<EqualWeights>(options_, base_);
     case Weights::voronoi:
-      return std::make_unique<VoronoiWeights>(tracing_.prepared.scene(), options_, base_, special_);
+      return std::make_unique<VoronoiWeights>(usual_.tracing.prepared.scene(), options_, base_, special_);
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(tracing_, options_, base_, special_, sources_, glances_.get());
+  return std::make_unique<SilhouetteWeights>(usual_.tracing, options_, base_, special_, sources_,
+                                             usual_.glances.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)
-    : tracer(estimator.tracing_.tracer()) {}
+    : tracer(estimator.usual_.tracing.tracer()) {}
 
 // lit: number of directions that found light. A small number means a dark point only with -Sw c, which sends
 // directions to the sources; with other strategies all directions may miss small sources.

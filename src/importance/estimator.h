@@ -66,7 +66,7 @@ class SphereEstimator {
   // estimate() averages over sets. Sets with different numbers below DiffuseGlances::kPools are independent
   // of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
-    return strategy_->sample(set, workspace.tracer, workspace.voronoi_);
+    return usual_.strategy->sample(set, workspace.tracer, workspace.voronoi_);
   }
   Moments momentsOf(const SampledSet& sampled, const SetAtPoint& set) const {
     return sampled.moments(base_, set.gaze());
@@ -78,6 +78,13 @@ class SphereEstimator {
 
  private:
   bool isDark(const PointAnswer& answer, size_t lit) const;
+  // How sets of directions are traced and weighted.
+  struct Method {
+    std::unique_ptr<const DiffuseGlances> glances;  // null where light vertices miss some of the light
+    SphereTracing tracing;
+    std::unique_ptr<const SamplingStrategy> strategy{};
+  };
+  static Method usualMethod(const Transport& transport, const SphereOptions& options, const BaseSet& base);
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
   void makeDaylit();
   const SamplingStrategy& strategyFor(const V3d& point) const;
@@ -85,18 +92,10 @@ class SphereEstimator {
   SphereOptions options_;
   BaseSet base_;
   SeenSources sources_;
-  std::vector<SpecialObject> special_;             // none with -Sw h
-  std::unique_ptr<const DiffuseGlances> glances_;  // null where light vertices miss some of the light
-  SphereTracing tracing_;
-  std::unique_ptr<const SamplingStrategy> strategy_;
-  // For points in rooms that daylight enters through openings; null: there are none.
-  struct Daylit {
-    std::unique_ptr<const DiffuseGlances> glances;
-    SphereTracing tracing;
-    std::unique_ptr<const SamplingStrategy> strategy;
-  };
-  std::unique_ptr<Daylit> daylit_;
-  double dark_ = 0;  // -Sa: integral of radiance (W/m2) below which a point is dark
+  std::vector<SpecialObject> special_;  // none with -Sw h
+  Method usual_;
+  std::unique_ptr<Method> daylit_;  // for points in rooms that daylight enters through openings; or null
+  double dark_ = 0;                 // -Sa: integral of radiance (W/m2) below which a point is dark
 };
 
 // One direction of a point, as -Sd prints it.

@@ -25,9 +25,10 @@ LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfa
                 static_cast<size_t>(static_cast<double>(paths) * (1 - LightVertices::shareOfSky(surfaces)))),
       pools_(pools),
       paths_(paths),
-      most_(std::max(pools + 1, tuning::DiffuseGlances::kMost / paths)),
       seed_(seed),
-      tracers_(std::move(tracers)) {}
+      tracers_(std::move(tracers)) {
+  made_.most = std::max(pools + 1, tuning::DiffuseGlances::kMost / paths);
+}
 
 double LightPools::powerOf(std::span<const uint32_t> sources) const {
   double sum = 0;
@@ -62,7 +63,7 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     found->asked = ++made_.asked;
     // The pool that has not been requested for the longest time is removed. Points that still use it keep it
     // until they are finished.
-    if (made_.pools.size() > most_)
+    if (made_.pools.size() > made_.most)
       made_.pools.erase(
           std::min_element(made_.pools.begin(), made_.pools.end(),
                            [](const auto& a, const auto& b) { return a.second->asked < b.second->asked; }));

@@ -41,9 +41,10 @@ class LightPools {
   };
   struct Made {
     using Key = std::pair<std::vector<uint32_t>, size_t>;  // preferred sources and number of the pool
-    std::mutex mutex;                                      // guards the other two members
+    std::mutex mutex;                                      // guards pools and asked
     std::map<Key, std::shared_ptr<Pool>> pools;
     uint64_t asked = 0;
+    size_t most = 0;  // cap on the pools in memory
   };
 
   std::shared_ptr<const VertexLight> pool(std::span<const uint32_t> preferred, size_t number) const;
@@ -54,7 +55,7 @@ class LightPools {
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
   SourceEmission emission_;
-  size_t pools_, paths_, most_;  // most_: cap on the pools in memory
+  size_t pools_, paths_;
   uint64_t seed_;
   Tracers tracers_;
   mutable Made made_;

@@ -79,7 +79,7 @@ class DirectLight {
   bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
   static bool isLeftOut(Receiver at, const SourceSample& sample) {
-    return at.leftToBothEnds && at.leftToBothEnds->bringsLightOf(sample.source, at.point, sample.direction);
+    return at.leftToBothEnds && bringLightOf(sample.source, *at.leftToBothEnds, at.point, sample.direction);
   }
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =

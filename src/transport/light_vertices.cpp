@@ -159,7 +159,7 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
                                                  {hit, hit.distance, Coefficient(1)}, work_.scratch);
     if (course.met == 0) course.firstLength = beam_.length;
     if (past_.fromSource) {
-      beam_.power = beam_.power * all_.emission_.divergence(past_.source, beam_.length);
+      beam_.power = beam_.power * all_.starts_.onSources.divergence(past_.source, beam_.length);
     }
     ++course.met;
     if (!at.material) {
@@ -184,7 +184,7 @@ bool LightVertices::Path::entersAgain(const Hit& hit) const {
 
 bool LightVertices::Path::leaveSky(double where) {
   const SkyEmission::Leaving way =
-      all_.sky_.leave(where, prepared_.options().ambientBounces - 1, random_, *outdoors_);
+      all_.starts_.onPortals.leave(where, prepared_.options().ambientBounces - 1, random_, *outdoors_);
   beam_.origin = way.origin;
   beam_.direction = way.direction;
   beam_.power = way.power;
@@ -195,17 +195,18 @@ bool LightVertices::Path::leaveSky(double where) {
 }
 
 bool LightVertices::Path::leave(double where) {
-  if (where < all_.ofSky_) return leaveSky(where / all_.ofSky_);
-  past_.source = all_.emission_.sourceAt((where - all_.ofSky_) / (1 - all_.ofSky_));
+  if (where < all_.starts_.shareOfSky) return leaveSky(where / all_.starts_.shareOfSky);
+  past_.source =
+      all_.starts_.onSources.sourceAt((where - all_.starts_.shareOfSky) / (1 - all_.starts_.shareOfSky));
   if (past_.source == kNone) return false;
   if (!prepared_.lights().all()[past_.source].isDistant())
     beam_.start = prepared_.lights().all()[past_.source].surface;
-  const SourceEmission::Leaving way = all_.emission_.leave(past_.source, random_, work_.scratch);
+  const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, random_, work_.scratch);
   beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
   beam_.direction = way.direction;
   past_.cosineAtSource = way.from.normal.dot(beam_.direction);
   beam_.power = way.power;
-  past_.way = all_.emission_.isAimedAt(past_.source) ? LightVertex::direct : LightVertex::unweighed;
+  past_.way = all_.starts_.onSources.isAimedAt(past_.source) ? LightVertex::direct : LightVertex::unweighed;
   return true;
 }
 
@@ -234,7 +235,8 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 // Reflects the path at a mirror; returns false if it ends. It ends at the black back of a mirror. A path that
 // comes directly from its source also ends at curved mirrors, because they make no images of sources.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
-  if (hit.cosine <= 0 || (past_.fromSource && all_.emission_.imageOf(past_.source, hit.surface) == kNone))
+  if (hit.cosine <= 0 ||
+      (past_.fromSource && all_.starts_.onSources.imageOf(past_.source, hit.surface) == kNone))
     return false;
   const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).mirror,
                                plainInteraction(beam_.direction, hit.normal, false));
@@ -246,7 +248,7 @@ bool LightVertices::Path::meetMirror(const Hit& hit) {
   beam_.start = hit.surface;
   beam_.direction = next.direction;
   if (past_.fromSource) {
-    past_.source = all_.emission_.imageOf(past_.source, hit.surface);
+    past_.source = all_.starts_.onSources.imageOf(past_.source, hit.surface);
     past_.way = LightVertex::unweighed;
     return true;
   }
@@ -295,7 +297,8 @@ double LightVertices::Path::shadowRaysTo(const PlainPlace& at) {
   same.distance = beam_.length;
   same.cosine = past_.cosineAtSource;
   same.source = past_.source;
-  return all_.emission_.shadowRaysOver(same, at.normal, work_.weights[static_cast<size_t>(own)] / sum);
+  return all_.starts_.onSources.shadowRaysOver(same, at.normal,
+                                               work_.weights[static_cast<size_t>(own)] / sum);
 }
 
 // Selects diffuse reflection, specular reflection or the end of the path, with probabilities proportional to
@@ -347,17 +350,19 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
 
 double LightVertices::shareOfSky(const PlainSurfaces& surfaces) {
   if (surfaces.portals().empty()) return 0;
-  return surfaces.haveSources() ? .5 : 1;
+  return surfaces.coverage().anySource ? .5 : 1;
 }
+
+LightVertices::Starts::Starts(SourceEmission emission, const Portals& portals, double share, size_t paths)
+    : onSources(std::move(emission)),
+      shareOfSky(share),
+      onPortals(portals, share * static_cast<double>(paths)),
+      pathPower(share * onPortals.pathPower() + (1 - share) * onSources.pathPower()) {}
 
 LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces,
                              SourceEmission emission, size_t paths, uint64_t seed,
                              const OutdoorParts* outdoors)
-    : surfaces_(surfaces),
-      emission_(std::move(emission)),
-      ofSky_(shareOfSky(surfaces)),
-      sky_(surfaces.portals(), ofSky_ * static_cast<double>(paths)),
-      pathPower_(ofSky_ * sky_.pathPower() + (1 - ofSky_) * emission_.pathPower()) {
+    : surfaces_(surfaces), starts_(std::move(emission), surfaces.portals(), shareOfSky(surfaces), paths) {
   near_ = measured(prepared, paths, seed, outdoors);
   const auto count = static_cast<double>(paths);
   size_t met = 0, metUnknown = 0;

@@ -97,9 +97,9 @@ class LightVertices {
 
   const VisibleVertices& visible() const { return visible_; }
   const NearLight& nearLight() const { return near_; }
-  const SourceEmission& emission() const { return emission_; }
+  const SourceEmission& emission() const { return starts_.onSources; }
   // Mean power of a path, W (brightness).
-  double pathPower() const { return pathPower_; }
+  double pathPower() const { return starts_.pathPower; }
 
   // The probability of following a path from the eye at a place, for light that neither vertices nor near
   // rays estimate. The more light hits unknown surfaces, the higher it is.
@@ -115,11 +115,18 @@ class LightVertices {
                      const OutdoorParts* outdoors);
   void sort();
 
+  // Where light paths start.
+  struct Starts {
+    Starts(SourceEmission emission, const Portals& portals, double shareOfSky, size_t paths);
+
+    SourceEmission onSources;
+    double shareOfSky;  // of the paths: these start on portals, for light of the sky
+    SkyEmission onPortals;
+    double pathPower;  // mean, W (brightness)
+  };
+
   const PlainSurfaces& surfaces_;
-  SourceEmission emission_;
-  double ofSky_;  // share of the paths that start on portals for light of the sky
-  SkyEmission sky_;
-  double pathPower_;
+  Starts starts_;
   double shareOfRest_ = 1;
   NearLight near_;
   std::vector<LightVertex> all_;

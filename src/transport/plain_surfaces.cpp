@@ -92,7 +92,7 @@ void PlainSurfaces::findSources() {
   knownSources_.resize(lights.size());
   for (const LightId i : lights.ids()) {
     knownSources_[i] = isKnown(i);  // images come after their sources, which isKnown() looks up
-    hasKnownSources_ = hasKnownSources_ || knownSources_[i];
+    coverage_.anySource = coverage_.anySource || knownSources_[i];
     coverage_.allSources = coverage_.allSources && knownSources_[i];
   }
 }
@@ -132,7 +132,7 @@ void PlainSurfaces::findSurfaces() {
       coverage_.passUnknown = true;
   }
   if (!portals_.empty()) coverage_.all = false;  // some light may come past them
-  if (!portals_.empty() && hasKnownSources_) coverage_.passUnknown = true;
+  if (!portals_.empty() && coverage_.anySource) coverage_.passUnknown = true;
   coverage_.allDirect = coverage_.allSources && !coverage_.passUnknown;
   coverage_.all = coverage_.all && coverage_.allDirect;
 }
@@ -141,11 +141,12 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!portals_.empty()) {
     for (const auto& modifier : scene_.modifiers)
-      if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
+      if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material))
+        return "mist";
     return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
-  if (!hasKnownSources_) return "no known sources";
+  if (!coverage_.anySource) return "no known sources";
   // With an unknown surface (a sheet of paper or a crystal ball in an open-plan office), bidirectional
   // estimation only pays around a goal. Measured: around a goal half the error in twice the time; by lamps
   // the same error in two thirds more time.
@@ -236,7 +237,7 @@ PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const
     return at;
   const PlainFinish& finish = finishOf(at.surface);
   at.material = finish.opaque;
-  at.flat = isFlat(at.surface);
+  at.flat = isFlat(scene_.surfaces[at.surface].shape);
   if (at.material && finish.patterns != kNone) at.pattern = patternAt(at, direction, sight.hit, scratch);
   return at;
 }
@@ -264,10 +265,6 @@ Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
   for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next)
     pattern *= prepared_.functions().pattern(i, here, scratch);
   return pattern;
-}
-
-bool PlainSurfaces::isFlat(SurfaceId surface) const {
-  return rsphere::isFlat(scene_.surfaces[surface].shape);
 }
 
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,

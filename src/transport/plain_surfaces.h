@@ -56,6 +56,7 @@ class PlainSurfaces {
 
   // How much of the scene's light paths from both ends estimate.
   struct Coverage {
+    bool anySource = false;  // at least one source is known
     bool allSources = true;  // all sources are known
     bool all = true;         // all light: all surfaces and sources are known
     bool allDirect = true;   // all direct light of known surfaces
@@ -72,14 +73,7 @@ class PlainSurfaces {
     return f.opaque || f.pane || f.mirror;
   }
   bool knows(LightId source) const { return knownSources_[source]; }
-  bool haveSources() const { return hasKnownSources_; }  // known ones
-  // Whether paths from both ends estimate the light of a source that arrives at a point straight from a
-  // direction (unit): that of distant sources only through portals.
-  bool bringsLightOf(LightId source, const V3d& point, const V3d& direction) const {
-    return knows(source) && (portals_.empty() || portals_.isLeft(point, direction, kFarAway));
-  }
   const Portals& portals() const { return portals_; }
-  bool isFlat(SurfaceId surface) const;  // Interaction::flat
   // The radiance (W/sr/m2) that a known real source sends from a point on it. normal: of its front at the
   // point (unit). direction: of the ray that hits the point (unit).
   Radiance radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,
@@ -118,8 +112,16 @@ class PlainSurfaces {
   std::vector<PlainFinish> finishes_;
   ById<LightId, bool> knownSources_;
   Coverage coverage_;
-  bool hasPanes_ = false, hasKnownSources_ = false;
+  bool hasPanes_ = false;
 };
+
+// Whether paths from both ends estimate the light of a source that arrives at a point straight from a
+// direction (unit): that of distant sources only through portals.
+inline bool bringLightOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,
+                         const V3d& direction) {
+  const Portals& portals = surfaces.portals();
+  return surfaces.knows(source) && (portals.empty() || portals.isLeft(point, direction, kFarAway));
+}
 
 // Describes a hit on a plain material, for scatter().
 Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,

@@ -366,8 +366,9 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown s
   const VertexLight& light = *state_.request.vertexLight;
   const PlainSurfaces& known = light.surfaces();
   const SurfaceId hit = end.hit.surface;
-  const PlainPlace at{end.hit.point,     normal,         known.finishOf(hit).opaque, hit,
-                      known.isFlat(hit), end.hit.pattern};
+  const PlainPlace at{
+      end.hit.point,  normal, known.finishOf(hit).opaque, hit, isFlat(t_.scene().surfaces[hit].shape),
+      end.hit.pattern};
   value += end.context.unjoinedShare *
            light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }

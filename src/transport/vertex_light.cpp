@@ -78,7 +78,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
 
 // The transmittance between the place and a source sample; black if occluded.
 Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sample) const {
-  if (!surfaces_.bringsLightOf(sample.source, at.point, sample.direction)) return {};
+  if (!bringLightOf(sample.source, surfaces_, at.point, sample.direction)) return {};
   const LightSource& light = prepared_.lights().all()[sample.source];
   const SurfaceId source = light.isDistant() ? SurfaceId() : light.surface;
   switch (
