@@ -52,9 +52,9 @@ class DiffuseGlances {
   // tracer: for the light beyond portals.
   Found at(const SetAtPoint& set, PathTracer& tracer) const;
 
-  // Whether nearly all paths from a point in a daylit room lead to plain surfaces and portals only. Otherwise,
-  // as outdoors, most of the light would be left to a few paths from the eye. Depends only on the point and
-  // the scene.
+  // Whether nearly all paths from a point in a daylit room lead only to plain surfaces and portals.
+  // Otherwise, as outdoors, most of the light would be left to a few paths from the eye. Depends only on the
+  // point and the scene.
   bool suit(const V3d& point) const;
 
   // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.

@@ -264,8 +264,8 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
-  // Daylight that has come by a reflection arrives with the bounded kernel, too: some of the paths from the eye
-  // look for near surfaces that it lights.
+  // Daylight that has come by a reflection arrives with the bounded kernel, too: some of the paths from the
+  // eye look for near surfaces that it lights.
   const bool bounded = !all_.surfaces_.portals().empty() && past_.way != LightVertex::direct;
   all_.all_.push_back(
       vertexAt(at, reflected, past_.bounces + 1, bounded ? LightVertex::unweighed : past_.way, batch_));
