@@ -1,6 +1,6 @@
 #pragma once
-// Finds the places at which directions are aimed (aims.h). This file alone decides which estimate uses which
-// aims.
+// Finds the places at which directions are aimed (aims.h): for gathers, or for the directions of points.
+// Users leave out those whose light paths from both ends bring (SphereEstimator, IndirectLight).
 #include "transport/aims.h"
 #include "transport/prepared_scene.h"
 
