@@ -28,8 +28,8 @@ class DiffuseGlances {
   // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
-  // The same for rooms that daylight enters through openings, which are those of tracing.aims. Null if there
-  // are none, or if light is interpolated. Not for points where much light comes past them.
+  // The same for rooms that daylight enters through openings (tracing.aims). Null if there are none, or if
+  // light is interpolated (-aa above 0). Only for points at which suit() holds.
   static std::unique_ptr<const DiffuseGlances> makeDaylit(const SphereTracing& tracing,
                                                           const SphereOptions& options, const BaseSet& base);
   // REQUIRES that make() or makeDaylit() would not return null. tracers: none without portals.

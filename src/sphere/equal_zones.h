@@ -20,7 +20,7 @@ class EqualZones {
   explicit EqualZones(size_t count);
 
   size_t count() const { return first_.back(); }
-  // Of each zone, sr; exact.
+  // The solid angle of each zone, sr; exact.
   double solidAngle() const;
   // The number of zones in each row, from +z to -z.
   std::vector<size_t> rows() const;

@@ -154,7 +154,7 @@ void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance&
   looksOnly_ = false;
 }
 
-// Daylight through openings is not looked for where paths from both ends bring it.
+// The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots.
 Aims IndirectLight::aimsAt(const RayEnd& end) const {
   Aims aims = settings_.aims;
   if (end.known != Known::no && !state_.request.vertexLight->surfaces().portals().empty())

@@ -176,7 +176,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   return course;
 }
 
-// The light of a path that enters through a portal is that of the portal already.
+// Whether a light path enters the room through a portal. It ends there, because the paths that start on the
+// portal carry this light already.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
   return all_.surfaces_.portals().isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction,
                                          hit.distance);
@@ -264,8 +265,8 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
-  // Daylight that has come by a reflection arrives with the bounded kernel, too: some of the paths from the
-  // eye look for near surfaces that it lights.
+  // By lamps, light that has arrived by a reflection has an unbounded kernel (vertex_light.h). By daylight it
+  // has the bounded one: some of the paths from the eye bring the rest of the light of near surfaces.
   const bool bounded = !all_.surfaces_.portals().empty() && past_.way != LightVertex::direct;
   all_.all_.push_back(
       vertexAt(at, reflected, past_.bounces + 1, bounded ? LightVertex::unweighed : past_.way, batch_));

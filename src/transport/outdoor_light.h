@@ -1,6 +1,6 @@
 #pragma once
-// The light beyond portals (portals.h), as paths from the eye find it. An interface, because path_tracer.h
-// itself uses the paths from both ends.
+// The light beyond portals (portals.h), as paths from the eye find it. Light paths receive it as a function,
+// because PathTracer, which computes it, is itself built on them.
 #include <cstdint>
 #include <vector>
 
@@ -11,11 +11,12 @@
 
 namespace rsphere {
 
-// The radiance (W/sr/m2) along an indirect ray. bounces: diffuse bounces that have led to it.
+// The radiance (W/sr/m2) along an indirect ray. bounces: number of diffuse bounces that have led to the ray.
 using OutdoorRadiance =
     FunctionRef<Radiance(const V3d& origin, const V3d& direction, int bounces, Random& random)>;
 
-// The same, divided by the diffuse bounces that follow: element i of the result is the light after i of them.
+// The same, divided by the number of further diffuse bounces: element i of the result is the light after i of
+// them.
 using OutdoorParts = FunctionRef<void(const V3d& origin, const V3d& direction, int bounces, Random& random,
                                       std::vector<Radiance>& parts)>;
 

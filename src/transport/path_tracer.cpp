@@ -49,8 +49,8 @@ void checkDepth(const PathContext& ray) {
         rad::Status::system);
 }
 
-// Whether a finished ray has met something that emits light, which other rays do not bring as well: an illum
-// is seen as what it replaces, and a shadow ray may miss its source.
+// Whether a finished ray has hit a light source whose light no other ray brings as well. This excludes
+// illums, since a ray sees what they replace, and shadow rays that hit anything other than their source.
 bool bringsLight(const PreparedScene& prepared, const RayEnd& end) {
   if (end.hit.surface == kNone) return false;
   const LightId aimedAt = end.ray.aimedAt;

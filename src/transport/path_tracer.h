@@ -45,7 +45,7 @@ class PathTracer {
   // sampled.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
-  // The light beyond portals (outdoor_light.h), with one direction for each gather.
+  // The light beyond portals: the functions of outdoor_light.h. Each gather sends one ray.
   Radiance outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed);
   void outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
                 std::vector<Radiance>& parts);

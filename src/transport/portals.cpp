@@ -67,7 +67,8 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
   for (const Portal& p : portals.all()) {
     const double distance = (point - p.corner).dot(p.normal);
     if (!(distance > 0)) continue;
-    // The light is estimated from the corners' mean height above the place, 0 for those below.
+    // The portal's light at the place is estimated from the mean cosine of the directions to its corners; 0
+    // for corners below the horizon.
     double height = 0;
     for (int c = 0; c < 4; ++c) {
       const V3d to = p.at(c & 1, c >> 1) - point;

@@ -15,7 +15,7 @@ namespace rsphere {
 // A portal lies a little outside of its opening, so that a pane in the opening belongs to the room, whatever
 // rounding does.
 struct Portal : Rectangle {
-  double radiance = 0;  // expected of the light that enters (W/sr/m2, of brightness)
+  double radiance = 0;  // estimated mean of the light that enters (W/sr/m2, brightness)
 };
 
 class Portals {

@@ -84,7 +84,7 @@ struct PathContext {
   double shadowLength = 0;    // total length of those ancestors that are shadow rays
   SurfaceId mirror = kNone;   // if only a flat mirror has deflected the primary ray: that mirror
   Known known = Known::no;
-  // If it is unjoined: the fraction of the light that arrives at the last diffuse surface by a reflection and
+  // With Known::unjoined: of the light that arrives at the last diffuse surface by a reflection, the fraction
   // that paths from both ends do not estimate.
   double unjoinedShare = 1;
   const RayEnd* parent = nullptr;  // null: a primary ray, or a ray that does not depend on earlier ones

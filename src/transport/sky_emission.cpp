@@ -23,8 +23,8 @@ SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, 
   way.origin = portal->at(u, v) + .5 * portals_.lift() * portal->normal;
   way.direction = sentFrom(portal->normal, random);
   if (most < 1) return way;
-  // Two bounces precede the light outdoors, as a path from the eye counts: the one at the first surface that
-  // the path reaches, and the one at a surface that this lights.
+  // A path from the eye reaches the portal after two bounces: at the first surface that the light path will
+  // hit, and before that at a surface that is lit by it.
   std::vector<Radiance> parts;
   outdoors(portal->at(u, v), -way.direction, 2, random, parts);
   double all = 0;

@@ -11,17 +11,18 @@ class SkyEmission {
   // paths: the number of paths from all portals together; 0: there are none.
   SkyEmission(const Portals& portals, double paths);
 
-  // Mean power of a path as expected, W (brightness).
+  // Expected mean power of a path, W (brightness).
   double pathPower() const { return pathPower_; }
 
   struct Leaving {
     V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; unit
     Irradiance power;                         // of the path, W
-    // That count for the light on its first surface: one, and those outdoors. Each path carries the light of
-    // one number of bounces.
+    // Number of bounces that count for its light when it arrives at the first surface: 1, because paths from
+    // the eye find such light by an indirect ray, plus those outdoors. It is the same for all light of a
+    // path.
     int bounces = 0;
   };
-  // where: from 0 to 1, chooses the portal. most: of Leaving::bounces.
+  // where: 0 to 1, selects the portal. most: limit on the bounces of the light; below 1: no light.
   Leaving leave(double where, int most, Random& random, OutdoorParts outdoors) const;
 
  private:

@@ -285,8 +285,8 @@ bool SurfaceShading::leavesThroughPortal(const RayEnd& end) const {
                                                                  end.hit.length);
 }
 
-// Shadow rays are left out at their source (DirectLight). Rays that the eye sees straight or in reflections
-// bring what is outdoors; so do reflections that light vertices are not joined through.
+// Rays before the first diffuse surface show what is outdoors; so do reflections through which light vertices
+// are not joined. DirectLight itself leaves out shadow rays.
 bool SurfaceShading::leftToPortals(const RayEnd& end) const {
   const PathContext& ray = end.context;
   return ray.ambientLevel > 0 && !(ray.kinds & kShadow) && leavesThroughPortal(end) &&
@@ -326,8 +326,9 @@ double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   return state_.random.uniform() < probability ? 1 / probability : 0;
 }
 
-// What the rays of a gather look for at a place whose light paths from both ends bring. By daylight, vertices
-// that a reflection lights are not joined to near surfaces.
+// Sets which light the rays of a gather estimate at a place where paths from both ends estimate the rest. By
+// daylight, these rays also estimate light of near surfaces that has reached them by a reflection, because
+// vertices bring only a part of it.
 void SurfaceShading::setKnownBeyond(RayEnd& end, const FromBothEnds& both) const {
   end.known = both.indirectHere ? Known::unjoined : Known::joined;
   if (both.indirectHere || both.indirect->portals().empty() || end.context.ambientLevel == 0) return;

@@ -21,8 +21,8 @@ class RSPHERE_API Error : public std::runtime_error {
   ~Error() override;
 
   Cause cause() const { return cause_; }
-  // The file at the beginning of the message and the line in it, from 1; 0 for a file that cannot be opened.
-  // Empty and 0 if the message contains no place.
+  // The file named at the beginning of the message, and the number of the line in this file, from 1. The line
+  // is 0 if the file cannot be opened. If the message names no place, the file is empty and the line 0.
   const std::string& file() const { return file_; }
   int line() const { return line_; }
 
