@@ -4,13 +4,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fault import fault, lines_of, number, whole
+from fault import Fault, fault, lines_of, number, whole
 from lamp_rad import UNITS, rotation, word
 from luminaire_file import read_luminaire
 from photometry import Photometry
 from room import cells_of, names_matching, polygons_named, surface_of
 
 MOST_CANDIDATES = 20000
+FAR = 20  # times the size of the scene: what is farther away is in other units
+SCENE_SIZES = 0.3, 1e5  # m: others are those of a scene whose units are wrong
 
 
 @dataclass
@@ -136,10 +138,11 @@ class Reader:
         self.design = Design(file)
         self.folder = os.path.dirname(file)
         self.polygons = polygons
-        self.waiting = []  # goals and places, which need what is on other lines
+        corners = np.concatenate([p.corners for p in polygons]) if polygons else np.zeros((1, 3))
+        self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def read(self):
-        for index, line in enumerate(lines_of(self.design.file)):
+        for index, line in enumerate(lines_of(self.design.file, "utf-8", "surrogateescape")):
             words = line.split("#")[0].split()
             if not words:
                 continue
@@ -172,13 +175,27 @@ class Reader:
         if self.design.surfaces or self.design.candidates:
             raise w.fault("units must be above all surfaces and places")
         self.design.units = UNITS[unit]
+        size = np.linalg.norm(self.high - self.low) / UNITS[unit]
+        if not SCENE_SIZES[0] <= size <= SCENE_SIZES[1]:
+            raise w.fault(f"in {unit} the scene would have a size of {size:.2g} m; units are those of its coordinates")
+
+    def near(self, w, position, what):
+        """Raises Fault for a place that is far from the scene."""
+        size = np.linalg.norm(self.high - self.low)
+        if np.linalg.norm(np.maximum(self.low - position, position - self.high).clip(0)) > FAR * size:
+            low, high = (" ".join(f"{v:.5g}" for v in at) for at in (self.low, self.high))
+            raise w.fault(f"{what} is far from the scene, which reaches from {low} to {high}; is it in the units of the scene?")
+        return position
 
     def read_maintenance(self, w):
         self.design.maintenance = w.number("the maintenance factor", 0.01, 1)
 
     def read_luminaire(self, w):
         name = word(w.text("a name"))
-        photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies or .ldt")))
+        try:
+            photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies or .ldt")))
+        except Fault as text:
+            raise w.fault(str(text)) from None
         watts, factor = photometry.watts, 1.0
         while w.more():
             key = w.text("watts or factor")
@@ -218,7 +235,8 @@ class Reader:
                 raise w.fault(f'"{key[:40]}" is none of aim, turn{"".join(", " + o for o in options)}')
         return aims or [np.array([0, 0, -1.0])], turns or [0.0], found
 
-    def add(self, luminaire, position, aims, turns, row=None):
+    def add(self, w, luminaire, position, aims, turns, row=None):
+        self.near(w, position, "a luminaire")
         for aim in aims:
             for turn in turns:
                 self.design.candidates.append(Candidate(luminaire, np.array(position), aim, turn, row))
@@ -227,7 +245,7 @@ class Reader:
         luminaire = self.luminaire(w)
         position = w.vector("the place")
         aims, turns, _ = self.orientation(w, {})
-        self.add(luminaire, position, aims, turns)
+        self.add(w, luminaire, position, aims, turns)
 
     def read_grid(self, w):
         luminaire = self.luminaire(w)
@@ -241,10 +259,10 @@ class Reader:
         grid = len({c.row[0] for c in self.design.candidates if c.row})
         before = len(self.design.candidates)
         for p in polygons:
-            points, _, step = cells_of(p, spacing, found.get("margin", 0.0))
+            points, _, step = cells_of(p, spacing, found.get("margin", 0.0), w.place)
             for point in points:
                 index = np.round(point / max(1e-9, min(x for x in np.ravel(step) if x > 0)) * 8).astype(int)
-                self.add(luminaire, point - [0, 0, drop], aims, turns, (grid, index[1], index[0]))
+                self.add(w, luminaire, point - [0, 0, drop], aims, turns, (grid, index[1], index[0]))
         if len(self.design.candidates) == before:
             raise w.fault(f'no place fits on "{name}"; is the margin too wide?')
 
@@ -304,7 +322,7 @@ class Reader:
         name = w.text("a name")
         if name in self.design.sensors or name in self.design.eyes:
             raise w.fault(f'"{name}" is named twice')
-        return name, w.vector("the place")
+        return name, self.near(w, w.vector("the place"), f'"{name[:40]}"')
 
     def read_sensor(self, w):
         name, position = self.named_place(w)
@@ -344,7 +362,7 @@ class Reader:
             raise w.fault("daylight belongs to a scene; write scene NAME above")
         while w.more():
             file = os.path.join(self.folder, w.text("scene files of the sky"))
-            if not os.path.exists(file):
+            if not os.path.isfile(file):
                 raise w.fault(f'there is no file "{file}"')
             self.design.scenes[-1].daylight.append(file)
         if not self.design.scenes[-1].daylight:

@@ -4,7 +4,7 @@ import os
 import numpy as np
 
 from fault import fault, lines_of, number, whole
-from photometry import Photometry, checked_angles, unfolded
+from photometry import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_PLANES = 721
 MOST_LAMPS = 20
@@ -138,8 +138,8 @@ def read_eulumdat(file):
     check_symmetry(lines, used, symmetry)
     used, candela = all_round(used, np.array(values).reshape(len(stored), gammas), symmetry if planes > 1 else 1)
     # cd per 1000 lm of the lamps, also where a negative number of lamps marks absolute photometry.
-    return Photometry(file, f"{maker} {name}".strip() or os.path.basename(file), used, vertical,
-                      candela * factor * lumens / 1000, shape, size, watts)
+    candela = checked_candela(candela * factor * lumens / 1000, file, lines.line)
+    return Photometry(file, f"{maker} {name}".strip() or os.path.basename(file), used, vertical, candela, shape, size, watts)
 
 
 def check_symmetry(lines, angles, symmetry):

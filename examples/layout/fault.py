@@ -1,6 +1,8 @@
 """Faults in the input, and the numbers of text files, strictly read."""
+import codecs
 import re
 import sys
+import warnings
 
 
 class Fault(Exception):
@@ -10,7 +12,6 @@ class Fault(Exception):
 def fault(file, line, text):
     place = file if line is None else f"{file}:{line}"
     return Fault("".join(c if c.isprintable() else "?" for c in f"{place}: {text}"))
-
 
 # float() also reads nan, infinity, 1_000 and digits of other scripts.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -36,8 +37,8 @@ def whole(word, file, line, what, least, most):
     return int(value)
 
 
-def lines_of(file):
-    """The lines of a text file without their ends, LF or CR LF. Characters beyond ASCII are taken for Latin-1."""
+def lines_of(file, encoding="latin-1", errors="strict"):
+    """The lines of a text file without their ends, LF or CR LF, the mark of UTF-8 before them, and DOS's Ctrl-Z behind them."""
     try:
         with open(file, "rb") as stream:
             data = stream.read(LARGEST_FILE + 1)
@@ -47,15 +48,19 @@ def lines_of(file):
         raise fault(file, None, f"is larger than {LARGEST_FILE >> 20} MB")
     if b"\0" in data:
         raise fault(file, data[: data.index(b"\0")].count(b"\n") + 1, "is not a text file")
-    text = data.decode("latin-1").replace("\r\n", "\n").replace("\r", "\n")
+    data = data.removeprefix(codecs.BOM_UTF8).rstrip(b"\x1a")
+    text = data.decode(encoding, errors).replace("\r\n", "\n").replace("\r", "\n")
     return text.split("\n")
 
 
 def run_program(main):
-    """Runs main(), and prints a fault as one line."""
+    """Runs main(), and prints a fault as one line. Warnings of the module rsphere are one line, too."""
+    name = sys.argv[0].rsplit("/", 1)[-1]
+    warnings.showwarning = lambda message, *_: print(f"{name}: warning - {message}", file=sys.stderr)
+    sys.stdout.reconfigure(errors="replace")  # names in the room may be bytes of another encoding
     try:
         return main()
     except Fault as text:
-        sys.exit(f"{sys.argv[0].rsplit('/', 1)[-1]}: {text}")
+        sys.exit(f"{name}: {text}")
     except BrokenPipeError:
         sys.exit(1)

@@ -3,8 +3,8 @@ import os
 
 import numpy as np
 
-from fault import fault, lines_of, number, whole
-from photometry import Photometry, checked_angles, unfolded
+from fault import Fault, fault, lines_of, number, whole
+from photometry import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
 FOOT = 0.3048
@@ -69,8 +69,13 @@ def tilt_of(file, value, words):
         return (0.0, 180.0), (1.0, 1.0)
     if value.upper() == "INCLUDE":
         return read_tilt(words)
+    if not value:
+        raise fault(file, words.line, "TILT= needs NONE, INCLUDE or the name of a file")
     other = os.path.join(os.path.dirname(file), value)
-    tilt_words = Words(other, lines_of(other), 0)
+    try:
+        tilt_words = Words(other, lines_of(other), 0)
+    except Fault as text:
+        raise fault(file, words.line, f"TILT={value[:40]}: {text}") from None
     tilt = read_tilt(tilt_words)
     tilt_words.end()
     return tilt
@@ -150,6 +155,6 @@ def read_ies(file):
     words.end()
     if not candela.any():
         raise fault(file, words.line, "all candela values are 0")
+    candela = checked_candela(candela * multiplier * factor, file, words.line)
     name = " ".join(keywords.get(key, "") for key in ("MANUFAC", "LUMCAT", "LUMINAIRE")).strip()
-    return Photometry(file, name or os.path.basename(file), horizontal, vertical,
-                      candela * multiplier * factor, shape, size, watts, tilt)
+    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt)

@@ -1,5 +1,6 @@
 """Luminaires as scene text: a brightdata pattern on the luminous opening, as RADIANCE's ies2rad makes it."""
 import os
+import re
 import shutil
 
 import numpy as np
@@ -13,9 +14,9 @@ UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0, "ft": 1 / 0.3048, "in": 12 / 0.304
 
 
 def word(name):
-    """A name as a word of scene text."""
+    """A name as a word of scene text, and as a data file that RAYPATH finds: names with a dot in front are not looked for."""
     clean = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in name)
-    return clean or "lamp"
+    return re.sub(r"^[.-]", "_", clean) or "lamp"
 
 
 def data_text(photometry):

@@ -11,6 +11,7 @@ from fault import fault
 
 
 TINY = 0.0005  # m; degrees
+LARGEST = 1e-6, 1e9  # cd, the least and the most that the largest intensity of a luminaire can be: searchlights have 1e9
 
 
 @dataclass
@@ -84,6 +85,14 @@ def checked_angles(angles, file, line, what):
         if not before < after:
             raise fault(file, line, f"{what} must ascend, but {after:g} follows {before:g}")
     return np.array(angles)
+
+
+def checked_candela(candela, file, line):
+    """Intensities with all factors. Raises Fault if they are not those of any luminaire."""
+    largest = float(candela.max())
+    if not LARGEST[0] <= largest <= LARGEST[1]:
+        raise fault(file, line, f"with all factors, the largest intensity is {largest:.3g} cd; it must be from {LARGEST[0]:g} to {LARGEST[1]:g}")
+    return candela
 
 
 def unfolded(planes, candela, middle):

@@ -13,6 +13,7 @@ from start import HERE
 
 LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
 FACE = re.compile(r"\.(1540|4620|6457|3267|5137|2310)\Z")  # behind the name of a box
+BYTE = re.compile(r"\\x([89a-f][0-9a-f])")  # plan's word for a byte that is not UTF-8: Latin-1, as a surrogate
 MOST_CELLS = 20000  # of a polygon
 FINE = 6  # points along each side of a cell
 PARTS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 4  # points in a cell, from its middle, by its sides
@@ -68,14 +69,15 @@ def program(name):
 def read_polygons(files):
     """All polygons of scene files, by the program plan, which reads them as rsphere does."""
     try:
-        run = subprocess.run([program("plan"), "-a", *files], capture_output=True, text=True, check=False)
+        run = subprocess.run([program("plan"), "-a", *files], capture_output=True, check=False,
+                             encoding="utf-8", errors="surrogateescape")
     except OSError:
         raise Fault("the program plan is missing; cmake --build build --target plan makes it, PROGRAMS names its folder") from None
     if run.returncode:
         raise Fault(run.stderr.strip().split("\n")[-1].removeprefix("plan: fatal - "))
     polygons = []
-    for line in run.stdout.splitlines():
-        name, modifier, numbers = line.split("\t")
+    for line in run.stdout.split("\n")[:-1]:
+        name, modifier, numbers = BYTE.sub(lambda found: chr(0xDC00 + int(found[1], 16)), line).split("\t")
         polygons.append(Polygon(name, modifier, np.array(numbers.split(), dtype=float).reshape(-1, 3)))
     return polygons
 
@@ -83,7 +85,7 @@ def read_polygons(files):
 def has_mirrors(files):
     """Whether surfaces mirror light without blur: special objects (rsphere -Sl) that are not panes of glass."""
     command = [program("rsphere"), "-h", "-w-", "-Sl", *files]
-    run = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    run = subprocess.run(command, capture_output=True, check=False, stdin=subprocess.DEVNULL, encoding="utf-8", errors="surrogateescape")
     kinds = [line.split("\t")[1].split(" ")[0] for line in run.stdout.splitlines() if line.count("\t") >= 3]
     return any(kind not in ("glass", "mist", "antimatter") for kind in kinds)
 
@@ -108,7 +110,7 @@ def polygons_named(polygons, name, place):
     if not named:
         known = sorted({p.box() for p in polygons} | {p.modifier for p in polygons})
         near = difflib.get_close_matches(name, known, 4, 0.5) or [p.name for p in sorted(polygons, key=lambda p: -abs(p.vector()[2]))[:4]]
-        raise fault(*place, f'the scene has no polygon or modifier "{name}"; it has {", ".join(near) or "no polygons"}')
+        raise fault(*place, f'the scene has no polygon or modifier "{name[:60]}"; it has {", ".join(near) or "no polygons"}')
     return named
 
 
@@ -131,7 +133,7 @@ def inside(corners, points):
     return odd
 
 
-def cells_of(polygon, spacing, margin=0.0):
+def cells_of(polygon, spacing, margin, place):
     """The middles and corners of cells of at most a spacing, parallel to the first edge, with the middle inside."""
     normal = polygon.vector() / np.linalg.norm(polygon.vector())
     right, up = frame_of(normal)
@@ -149,7 +151,7 @@ def cells_of(polygon, spacing, margin=0.0):
         return np.zeros((0, 3)), [], (0, 0)
     counts = np.maximum(np.ceil((high - low) / np.asarray(spacing) - 1e-6).astype(int), 1)
     if np.prod(counts.astype(float)) > MOST_CELLS:
-        raise Fault(f'spacing: more than {MOST_CELLS} points on "{polygon.name}"; is it in the units of the scene?')
+        raise fault(*place, f'the spacing makes more than {MOST_CELLS} points on "{polygon.name}"; is it in the units of the scene?')
     step = (high - low) / counts
     v, u = np.meshgrid(*(low[i] + (np.arange(counts[i]) + 0.5) * step[i] for i in (1, 0)), indexing="ij")
     middles = np.stack([u.ravel(), v.ravel()], axis=1)
@@ -176,7 +178,7 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
         normal = side * p.vector() / np.linalg.norm(p.vector())
         size = np.ptp(p.corners @ np.stack(frame_of(normal)).T, axis=0)
         most = spacing or min(standard_spacing(*(size / units)) * units, np.sqrt(np.linalg.norm(p.vector()) / 6))
-        for corners in cells_of(p, most, margin)[1]:
+        for corners in cells_of(p, most, margin, place)[1]:
             sides = np.stack([corners[1] - corners[0], corners[3] - corners[0]])
             cells.append(corners)
             points += list(corners.mean(axis=0) + PARTS @ sides + normal * 1.5 * LIFT * units)

@@ -92,6 +92,7 @@ class Steps:
     def matrix_error(self):
         """rms of the standard errors, each by what all candidates together give to its receiver on average."""
         mean = self.matrix.total().mean(axis=1, keepdims=True)
+        mean[mean == 0] = np.inf  # nothing reaches an eye: the table shows that
         return float(np.sqrt(((self.matrix.error() / mean) ** 2).mean()))
 
     def daylight_in(self, scene):
@@ -234,7 +235,7 @@ class Steps:
         text = "\n".join(lines) + "\n"
         print(text, end="")
         print(self.verdict())
-        with open(os.path.join(self.given.output, "table.txt"), "w", encoding="utf-8") as stream:
+        with open(os.path.join(self.given.output, "table.txt"), "w", encoding="utf-8", errors="replace") as stream:
             stream.write(text + self.verdict() + "\n")
 
     def differences(self, kind):
@@ -283,7 +284,7 @@ class Steps:
         run = subprocess.run(command, capture_output=True, text=True, check=False, env=dict(os.environ, RAYPATH=path_of))
         if run.returncode:
             raise Fault(run.stderr.strip().split("\n")[-1])
-        with open(path, encoding="utf-8") as stream:
+        with open(path, encoding="utf-8", errors="replace") as stream:
             return stream.read()
 
     def pages(self):
@@ -294,7 +295,7 @@ class Steps:
         for s, (scene, levels) in enumerate(zip(d.all_scenes(), self.layout.levels)):
             title = f"{len(self.layout.chosen)} luminaires, {self.scene_watts(levels):.0f} W" + (f": {scene.name}" if scene.name else "")
             svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title)
-            with open(os.path.join(self.given.output, f"layout_{scene.name}.svg" if scene.name else "layout.svg"), "w", encoding="utf-8") as stream:
+            with open(os.path.join(self.given.output, f"layout_{scene.name}.svg" if scene.name else "layout.svg"), "w", encoding="utf-8", errors="replace") as stream:
                 stream.write(svg)
             page.heading(title)
             page.figure(svg)
@@ -312,7 +313,7 @@ class Steps:
         page.add(table(["number", "luminaire", "x", "y", "z", "turn", "aim", *(s.name or "level" for s in d.all_scenes())], list(self.lamp_rows()), 2))
         page.note(f"Scene text: {', '.join(os.path.basename(f) for f in self.files)}. Seconds: "
                   + ", ".join(f"{k} {v:.1f}" for k, v in self.seconds.items()) + ".")
-        with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8") as stream:
+        with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8", errors="replace") as stream:
             stream.write(page.html())
 
     def load(self, levels):

@@ -15,7 +15,8 @@ LAYOUT = os.path.join(TESTS, "../examples/layout")
 OFFICE = os.path.join(LAYOUT, "cases/office.rad")
 GOOD = ["luminaire panel panel.ies", "grid panel ceiling spacing 3 margin .5", "illuminance desk1 50"]
 FAULTS = (
-    (0, "luminaire panel nowhere.ies", None, r"nowhere\.ies: cannot be read"),
+    (0, "luminaire panel nowhere.ies", 1, r"nowhere\.ies: cannot be read"),
+    (0, "units mm\nluminaire panel panel.ies", 1, r"in mm the scene would have a size of 0\.012 m"),
     (0, "luminaire", 1, "luminaire needs a name"),
     (0, "luminaire panel panel.ies watts -3", 1, "the watts must be from"),
     (0, "luminare panel panel.ies", 1, '"luminare" is none of .*luminaire'),
@@ -23,7 +24,8 @@ FAULTS = (
     (1, "grid panel ceilling", 2, 'no polygon or modifier "ceilling"; it has ceiling'),
     (1, "grid panel ceiling spacing nan", 2, 'the spacing must be a number, not "nan"'),
     (1, "grid panel ceiling spacing 0", 2, "the spacing must be from"),
-    (1, "grid panel ceiling spacing .001", None, "more than 20000 points"),
+    (1, "grid panel ceiling spacing .001", 2, "more than 20000 points"),
+    (1, "place panel 1000 1000 2500", 2, r"far from the scene, which reaches from 0 0 0 to 9\.6 6 2\.9"),
     (1, "grid panel ceiling margin 9", 2, "no place fits"),
     (1, "grid panel ceiling aim 0 0 0", 2, "must not be 0 0 0"),
     (2, "illuminance desk9 500", 3, 'no polygon or modifier "desk9"'),
@@ -36,18 +38,23 @@ FAULTS = (
     (2, "ugr me 19", 3, 'there is no eye "me" above'),
     (2, "eye me 1 1 1.2 0 0 0", 3, "the gaze must not be 0 0 0"),
     (2, "eye me 1 1 1.2 0 0 1", 3, "the gaze must not be vertical"),
+    (2, "sensor s 1e9 1 1 0 0 1", 3, '"s" is far from the scene'),
     (2, "daylight sky.rad", 3, "daylight belongs to a scene"),
+    (2, "scene morning\ndaylight .", 4, 'there is no file ".*[.]"'),
     (2, "# nothing is wanted", None, "there is no goals"),
 )
 
 
 class Goals(unittest.TestCase):
-    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0")):
+    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8"):
+        """furniture: scene text besides the office."""
         with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "goals.txt")
-            with open(file, "w", encoding="utf-8") as stream:
-                stream.write("\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")) + "\n")
-            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", os.path.join(folder, "out"), "--no-plan", *options]
+            file, more = os.path.join(folder, "goals.txt"), os.path.join(folder, "more.rad")
+            for path, text in (file, "\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies"))), (more, furniture):
+                with open(path, "w", encoding=encoding) as stream:
+                    stream.write(text)
+            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, *([more] if furniture else []),
+                       "-o", os.path.join(folder, "out"), "--no-plan", *options]
             run = subprocess.run(command, capture_output=True, text=True, check=False)
             return run, file
 
@@ -55,6 +62,27 @@ class Goals(unittest.TestCase):
         run, _ = self.run_on(GOOD)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertRegex(run.stdout, r"illuminance  desk1 +50 lx +[0-9]+ lx")
+
+    def test_files_of_other_systems(self):
+        """The mark of UTF-8 and Ctrl-Z were words, and names beyond ASCII never matched or ended with a traceback."""
+        table = "void plastic t\xf6ne 0 0 5 .5 .5 .5 0 0\nt\xf6ne polygon b\xfcro 0 0 12 1 1 1 2 1 1 2 2 1 1 2 1\n"
+        for encoding, mark in (("utf-8", "\ufeff"), ("latin-1", "")):
+            lines = [mark + GOOD[0] + "\r", *GOOD[1:], "illuminance b\xfcro 50\r", "\x1a"]
+            run, _ = self.run_on(lines, ("-c", "8", "-d", "64", "-b", "0"), table, encoding)
+            self.assertEqual((run.returncode, run.stderr), (0, ""), encoding)
+            self.assertRegex(run.stdout, r"illuminance  b.+ro +50 lx +[0-9]+ lx +[0-9]+ lx")
+
+    def test_luminaire_whose_name_begins_with_dots(self):
+        """Its data file was not found: RAYPATH does not serve such names."""
+        run, _ = self.run_on([line.replace("panel ", "../panel ", 1) for line in GOOD])
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+
+    def test_eye_that_sees_nothing(self):
+        """It was two warnings of Python with lines of its code."""
+        run, _ = self.run_on([*GOOD, "eye me 5 3 9", "cylindrical me 50"])
+        self.assertEqual(run.returncode, 2, run.stderr)
+        for line in run.stderr.splitlines():
+            self.assertRegex(line, "^layout: warning - no importance reaches")
 
     def run_curve(self, lines):
         with tempfile.TemporaryDirectory() as folder:

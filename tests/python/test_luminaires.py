@@ -104,7 +104,10 @@ class Ies(Files):
             (self.changed(" 71 80\n", " 71\n"), None, "the file ends before candela value 35 of 35"),
             (BOX + "17\n", 12, '"17" follows the last candela value'),
             (self.changed("100 95", "-100 95"), 7, "candela value 1 of 35 must be from 0"),
-            (self.changed("TILT=NONE", "TILT=nowhere.tlt"), None, "cannot be read"),
+            (self.changed("TILT=NONE", "TILT=nowhere.tlt"), 2, r"nowhere\.tlt: cannot be read"),
+            (self.changed("TILT=NONE", "TILT="), 2, "needs NONE, INCLUDE or the name of a file"),
+            (self.changed("1000 1.5", "1e9 1e9"), 11, r"largest intensity is .*e\+1. cd; it must be from 1e-06 to 1e\+09"),
+            (self.changed("1000 1.5", "1000 1e-9").replace(".9 1 70", "1e-3 1 70"), 11, "largest intensity is .*e-1. cd"),
             (self.changed("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1"), None, ""),
             ("TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 5\n0 90\n0\n0 0\n", 6, "all candela values are 0"),
         ):
