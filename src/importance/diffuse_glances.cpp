@@ -23,10 +23,9 @@ Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
   return Random(mixBits(mixBits(set.seed() + static_cast<uint64_t>(stream)) + number));
 }
 
-size_t glancesFor(const SphereOptions& options, bool daylit) {
+size_t glancesFor(const SphereOptions& options) {
   const auto base = static_cast<size_t>(options.baseDirections);
-  const size_t each = daylit ? Tuning::kDaylitPerDirection : Tuning::kPerDirection;
-  return std::min(each * base, std::max(base, Tuning::kMost));
+  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMost));
 }
 
 V3d anyDirection(Random& random) {
@@ -165,7 +164,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
       surfaces_(std::move(surfaces)),
       lights_(prepared, surfaces_, poolsFor(options), pathsFor(options, bool(tracers)),
               mixBits(options.rotation), tracers),
-      glances_(rotatedDirections(baseDirections(glancesFor(options, bool(tracers))), options.rotation)),
+      glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
       zones_(base.zones),
       joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
