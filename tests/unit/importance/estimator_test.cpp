@@ -368,6 +368,7 @@ TEST(Estimator, PatchesGiveTheMeanOfPathsWithLessNoise) {
         o.ambientAccuracy = accuracy;
         o.rotation = static_cast<uint64_t>(i + 1);
         o.leastForPatches = 128;
+        o.directJitter = .9;  // leaves only paths from the eye
       });
       SphereOptions options = setting.options.sphere;
       options.baseDirections = 256;
