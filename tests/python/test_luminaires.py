@@ -252,6 +252,13 @@ class AsScene(Files):
         self.assertRegex(run.stderr, r'\Aluminaire: .*lamp\.ies:2: the lumens of a lamp must be a number, not "x"\n\Z')
         self.assertEqual(run.stdout, "")
 
+    def test_makes_its_folder(self):
+        """As layout does; a folder that was missing was a fault."""
+        folder = os.path.join(self.folder.name, "new/lamps")
+        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), PANEL, "-o", folder], capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(sorted(os.listdir(folder)), ["lamp.cal", "panel.dat"])
+
 
 if __name__ == "__main__":
     unittest.main()
