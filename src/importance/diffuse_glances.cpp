@@ -140,22 +140,27 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& 
   return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base);
 }
 
+std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing) {
+  const PreparedScene& prepared = tracing.prepared;
+  if (!tracing.aims.openings || prepared.options().ambientAccuracy > 0) return {};
+  const V3d size = prepared.tracer().bounds().size();
+  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}));
+  if (portals.empty()) return {};
+  PlainSurfaces surfaces(prepared, std::move(portals));
+  if (surfaces.obstacle()) return {};
+  return surfaces;
+}
+
 std::unique_ptr<const DiffuseGlances> DiffuseGlances::makeDaylit(const SphereTracing& tracing,
+                                                                 const PlainSurfaces& surfaces,
                                                                  const SphereOptions& options,
                                                                  const BaseSet& base) {
   const PreparedScene& prepared = tracing.prepared;
-  if (!tracing.aims.openings || prepared.options().ambientAccuracy > 0) return nullptr;
-  const V3d size = prepared.tracer().bounds().size();
-  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}));
-  if (portals.empty()) return nullptr;
-  PlainSurfaces surfaces(prepared, std::move(portals));
-  if (surfaces.obstacle()) return nullptr;
   const Aims& aims = tracing.aims;
-  return std::make_unique<const DiffuseGlances>(prepared, std::move(surfaces), options, base,
-                                                [&prepared, aims] {
-                                                  static const Caches none;
-                                                  return PathTracer(prepared, none, aims);
-                                                });
+  return std::make_unique<const DiffuseGlances>(prepared, surfaces, options, base, [&prepared, aims] {
+    static const Caches none;
+    return PathTracer(prepared, none, aims);
+  });
 }
 
 DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces,
@@ -250,17 +255,17 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 
-bool DiffuseGlances::suit(const V3d& point) const {
+bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces) {
   Random random(seedOf(std::array{point.x, point.y, point.z}));
   FunctionScratch scratch;
   size_t past = 0;
   for (size_t i = 0; i < Tuning::kWalks; ++i) {
     V3d origin = point, direction = anyDirection(random);
     SurfaceId start;
-    for (int hits = 0; hits <= prepared_.options().ambientBounces; ++hits) {
-      const Sight sight = surfaces_.look(origin, direction, kFarAway, start);
+    for (int hits = 0; hits <= bounces; ++hits) {
+      const Sight sight = surfaces.look(origin, direction, kFarAway, start);
       if (sight.leaves) break;
-      const PlainPlace at = surfaces_.placeOf(origin, direction, sight, scratch);
+      const PlainPlace at = surfaces.placeOf(origin, direction, sight, scratch);
       past += !at.material;
       if (!at.material || random.uniform() >= brightness(Radiance(at.color()))) break;
       origin = at.point;

@@ -28,11 +28,12 @@ class DiffuseGlances {
   // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
-  // The same for rooms that daylight enters through openings (tracing.aims). Null if there are none, or if
-  // light is interpolated (-aa above 0). Only for points at which suit() holds.
+  // The same for rooms that daylight enters through openings, for points that suitDaylight(). surfaces: from
+  // daylitSurfaces().
   static std::unique_ptr<const DiffuseGlances> makeDaylit(const SphereTracing& tracing,
+                                                          const PlainSurfaces& surfaces,
                                                           const SphereOptions& options, const BaseSet& base);
-  // REQUIRES that make() or makeDaylit() would not return null. tracers: none without portals.
+  // REQUIRES that surfaces.obstacle() is null. tracers: none without portals.
   DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
                  const BaseSet& base, LightPools::Tracers tracers = {});
 
@@ -51,11 +52,6 @@ class DiffuseGlances {
   };
   // tracer: for the light beyond portals.
   Found at(const SetAtPoint& set, PathTracer& tracer) const;
-
-  // Whether nearly all paths from a point in a daylit room lead only to plain surfaces and portals.
-  // Otherwise, as outdoors, most of the light would be left to a few paths from the eye. Depends only on the
-  // point and the scene.
-  bool suit(const V3d& point) const;
 
   // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
@@ -92,5 +88,14 @@ class DiffuseGlances {
   std::optional<Neighbours> neighbours_;        // empty unless standard errors are requested
   double joins_;                                // expected number of joins at a point
 };
+
+// The surfaces of a scene with the openings of tracing.aims as portals. Empty if there are no openings, if
+// light is interpolated (-aa above 0), or if paths from both ends would miss some of the light.
+std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing);
+
+// Whether nearly all paths of up to `bounces` diffuse reflections from a point in a daylit room lead only to
+// plain surfaces and portals. Otherwise, as outdoors, most of the light would be left to a few paths from the
+// eye. Depends only on the point and the scene.
+bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces);
 
 }  // namespace rsphere

@@ -192,7 +192,9 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
   usual_.strategy = makeStrategy();
-  makeDaylit();
+  if (!usual_.glances && options.weights == Weights::silhouettes && options.densityFactor > 0)
+    if (auto surfaces = daylitSurfaces(usual_.tracing))
+      daylit_ = std::make_unique<Daylit>(std::move(*surfaces));
   if (options.accuracy > 0)
     dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(usual_.tracing, sources_);
 }
@@ -212,20 +214,23 @@ SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport,
   return {std::move(glances), std::move(tracing)};
 }
 
-void SphereEstimator::makeDaylit() {
-  if (usual_.glances || options_.weights != Weights::silhouettes || !(options_.densityFactor > 0)) return;
-  auto glances = DiffuseGlances::makeDaylit(usual_.tracing, options_, base_);
-  if (!glances) return;
+SphereEstimator::Method SphereEstimator::daylitMethod(const PlainSurfaces& surfaces) const {
   const SphereTracing& usual = usual_.tracing;
+  auto glances = DiffuseGlances::makeDaylit(usual, surfaces, options_, base_);
   SphereTracing tracing{usual.prepared, usual.caches, usual.aims, glances->lightOfAll()};
   tracing.aims.spots = nullptr;
-  daylit_ = std::make_unique<Method>(Method{std::move(glances), std::move(tracing)});
-  daylit_->strategy = std::make_unique<SilhouetteWeights>(daylit_->tracing, options_, base_, special_,
-                                                          sources_, daylit_->glances.get());
+  return {std::move(glances), std::move(tracing)};
 }
 
 const SamplingStrategy& SphereEstimator::strategyFor(const V3d& point) const {
-  return daylit_ && daylit_->glances->suit(point) ? *daylit_->strategy : *usual_.strategy;
+  if (!daylit_ || !suitsDaylight(point, daylit_->surfaces, usual_.tracing.prepared.options().ambientBounces))
+    return *usual_.strategy;
+  std::call_once(daylit_->made, [&] {
+    Method& made = daylit_->method.emplace(daylitMethod(daylit_->surfaces));
+    made.strategy = std::make_unique<SilhouetteWeights>(made.tracing, options_, base_, special_, sources_,
+                                                        made.glances.get());
+  });
+  return *daylit_->method->strategy;
 }
 
 double SphereEstimator::sharedError() const { return coarseError(usual_.tracing); }

@@ -9,6 +9,8 @@
 //   -Sw c  silhouette_weights.h  the default; its header lists the differences from the paper, with reasons
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "importance/base_set.h"
@@ -86,7 +88,7 @@ class SphereEstimator {
   };
   static Method usualMethod(const Transport& transport, const SphereOptions& options, const BaseSet& base);
   std::unique_ptr<const SamplingStrategy> makeStrategy() const;
-  void makeDaylit();
+  Method daylitMethod(const PlainSurfaces& surfaces) const;
   const SamplingStrategy& strategyFor(const V3d& point) const;
 
   SphereOptions options_;
@@ -94,7 +96,14 @@ class SphereEstimator {
   SeenSources sources_;
   std::vector<SpecialObject> special_;  // none with -Sw h
   Method usual_;
-  std::unique_ptr<Method> daylit_;  // for points in rooms that daylight enters through openings; or null
+  // For points in rooms that daylight enters through openings. The method is made for the first such point.
+  struct Daylit {
+    explicit Daylit(PlainSurfaces all) : surfaces(std::move(all)) {}
+    PlainSurfaces surfaces;
+    std::once_flag made;
+    std::optional<Method> method;
+  };
+  std::unique_ptr<Daylit> daylit_;  // null without openings
   double dark_ = 0;                 // -Sa: integral of radiance (W/m2) below which a point is dark
 };
 

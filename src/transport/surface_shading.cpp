@@ -106,8 +106,11 @@ class SurfaceShading::Seen final : public MaterialHit {
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
+  // A shadow ray may leave through a portal and stay known, because light paths carry the sunlight that
+  // passes only panes on its way to the portal. Other rays end at the portal or begin anew there.
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
-      state_.request.vertexLight->surfaces().knows(end.hit.surface) && !leavesThroughPortal(end)) {
+      state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
+      ((end.context.kinds & kShadow) || !leavesThroughPortal(end))) {
     end.known = end.context.known;
     end.unjoinedShare = end.context.unjoinedShare;
   }

@@ -25,6 +25,8 @@ gray polygon roof 0 0 12 0 0 3 4 0 3 4 4 3 0 4 3
 gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 3 0 2 3 0 1 1 0 1
 )";
 const std::string kPane = "clear polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
+const std::string kInnerPane = "clear polygon inner 0 0 12 1 .3 1 3 .3 1 3 .3 2 1 .3 2\n";
+const std::string kCanopy = "clear polygon canopy 0 0 12 0 -2 2.8 4 -2 2.8 4 -.1 2.8 0 -.1 2.8\n";
 const std::string kSky =
     "void glow above 0 0 4 3 4 6 0\nabove source sky 0 0 4 0 0 1 180\n"
     "void glow below 0 0 4 1 .8 .6 0\nbelow source earth 0 0 4 0 0 -1 180\n";
@@ -61,10 +63,8 @@ Sample meansOf(const SphereSetting& setting, const V3d& point, double densityFac
   return sample;
 }
 
-std::unique_ptr<const DiffuseGlances> glancesOf(const SphereSetting& setting) {
-  const SphereOptions& o = setting.options.sphere;
-  static const BaseSet base = makeBaseSet(SphereOptions{}, setting.options.ray.sampling, false);
-  return DiffuseGlances::makeDaylit(setting.tracing(setting.transport->aims()), o, base);
+std::optional<PlainSurfaces> surfacesOf(const SphereSetting& setting) {
+  return daylitSurfaces(setting.tracing(setting.transport->aims()));
 }
 
 class DaylitWays : public ::testing::TestWithParam<Way> {};
@@ -72,8 +72,8 @@ class DaylitWays : public ::testing::TestWithParam<Way> {};
 TEST_P(DaylitWays, AgreeWithPathsFromTheEye) {
   const Way& way = GetParam();
   const SphereSetting setting = settingOf(way.scene, way.bounces);
-  const auto glances = glancesOf(setting);
-  ASSERT_TRUE(glances && glances->suit(way.point));
+  const auto surfaces = surfacesOf(setting);
+  ASSERT_TRUE(surfaces && suitsDaylight(way.point, *surfaces, way.bounces));
   const Sample both = meansOf(setting, way.point, 1, 256), eye = meansOf(setting, way.point, 0, 2048);
   const double error = std::hypot(both.standardError(), eye.standardError());
   EXPECT_LT(std::abs(both.mean() - eye.mean()), kMostSigmas * error)
@@ -90,6 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"Pane", kRoom + kPane + kSky}, Way{"Hole", kRoom + kSky},
         Way{"OneBounce", kRoom + kPane + kSky, 1}, Way{"FourBounces", kRoom + kPane + kSky, 4},
         Way{"Sun", kRoom + kPane + kSky + kSun}, Way{"SunOnGround", kRoom + kPane + kSky + kSun + kGround, 3},
+        // The sun shines through an opening behind an opening.
+        Way{"DoublePane", kRoom + kPane + kInnerPane + kSky + kSun},
+        Way{"GlassCanopy", kRoom + kCanopy + kSky + kSun, 1, V3d(2.4, 1.7, 1.1)},
         Way{"NearThePane", kRoom + kPane + kSky + kSun, 2, V3d(2.2, .01, 1.6)},
         Way{"MetalShelf",
             kRoom + kPane + kSky + kSun +
@@ -103,16 +106,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Daylit, PointsOutdoorsKeepPathsFromTheEye) {
   const SphereSetting setting = settingOf(kRoom + kPane + kSky + kGround, 2);
-  const auto glances = glancesOf(setting);
-  ASSERT_TRUE(glances);
-  EXPECT_TRUE(glances->suit(V3d(2, 2, 1)));
-  EXPECT_FALSE(glances->suit(V3d(2, -5, 1)));
+  const auto surfaces = surfacesOf(setting);
+  ASSERT_TRUE(surfaces);
+  EXPECT_TRUE(suitsDaylight(V3d(2, 2, 1), *surfaces, 2));
+  EXPECT_FALSE(suitsDaylight(V3d(2, -5, 1), *surfaces, 2));
 }
 
 TEST(Daylit, LampsKeepPathsFromTheEye) {
   const std::string lamp =
       "void light lamp 0 0 3 20 20 20\nlamp polygon p 0 0 12 1 1 2.9 1 2 2.9 3 2 2.9 3 1 2.9\n";
-  EXPECT_FALSE(glancesOf(settingOf(kRoom + kPane + kSky + lamp, 2)));
+  EXPECT_FALSE(surfacesOf(settingOf(kRoom + kPane + kSky + lamp, 2)));
 }
 
 }  // namespace
