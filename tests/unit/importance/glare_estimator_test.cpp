@@ -306,7 +306,8 @@ TEST(GlareEstimator, LuminanceThatOneSetSeesHasItsOwnError) {
 
 // Most of the time goes into the light paths of an estimator. They are a small part of the noise (answers of
 // two eyes correlate by .02 to .04), and therefore 40 eyes share them. The ratio of 640 answers is known to
-// 3.2%. It is .91 (UGR, background) to .99 (illuminance): four standard errors above the lower bound.
+// 3.2%. With other eyes, too, it is .91 (UGR, background) to 1.04 (illuminance): the lower bound is four
+// standard errors away.
 TEST(GlareEstimator, StatesItsErrors) {
   constexpr int kEyes = 40, kRepeats = 16;
   const SphereSetting setting = roomWithLamp();
