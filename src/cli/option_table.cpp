@@ -561,9 +561,12 @@ void addGatheringOptions(const Add& add) {
        .paragraph =
            "Relative error that the interpolation of indirect light may add; see Interpolation. 0 disables "
            "the irradiance cache and the coarse solution, and each path gathers indirect light again. This "
-           "is faster for a few rays or points in a detailed scene. In sphere mode, -aa has no effect if "
-           "light paths from the sources find all light (see -Sw): the program then computes no coarse "
-           "solution, because light paths take less time for the same error."});
+           "is faster for a few rays or points in a detailed scene: interpolation begins with up to "
+           "seconds of work there, because no answer may depend on the number of records. For sensors "
+           "(-I), interpolation is faster from 3 to 20 sensors on in daylit rooms, and from 50 to 100 on "
+           "with luminaires. In sphere mode, -aa has no effect if light paths from the sources find all "
+           "light (see -Sw): the program then computes no coarse solution, because light paths take less "
+           "time for the same error."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
@@ -598,8 +601,11 @@ void addGatheringOptions(const Add& add) {
        .remark = "ambient super-samples",
        .paragraph =
            "Number of rays that are added to those of -ad. All of them together are stratified over the "
-           "hemisphere. Unlike in rtrace, these rays are not adaptive: their directions do not depend on "
-           "the light found by the other rays."});
+           "hemisphere. Unlike in rtrace, the directions of these rays do not depend on the light found by "
+           "other rays. With interpolation (-aa above 0), a sensor of -I adds up to eight times as many "
+           "where its gather is noisy, as behind blinds and below skylights in shafts: until the estimated "
+           "standard error is a twelfth of -aa. The noise of each half of the rays decides how many are "
+           "added to the other half, which adds no bias. 0 adds none."});
 }
 
 void addMediumOptions(const Add& add) {

@@ -1,9 +1,12 @@
 #include "transport/indirect_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "transport/final_gather.h"
+#include "transport/function_ref.h"
 #include "transport/gather_directions.h"
 #include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
@@ -12,6 +15,16 @@
 
 namespace rsphere {
 namespace {
+
+// A sensor (-I) adds rays until the standard error of its gather is at most -aa divided by kAccuracy, or
+// until kMostAdded times -as are added. Chosen by experiment: with 8, variance x time is 1.27 times as large
+// as without added rays in a room of glass and metal, because two halves are stratified worse than a whole;
+// with 12 it is 1.10 times as large (tests/bench/rtrace/runs/2026-11-26-sensors.txt).
+constexpr double kAccuracy = 12, kMostAdded = 8;
+
+// If the rays to be added are fewer than those already sent divided by this, none are added, because so few
+// would be unevenly distributed over the hemisphere.
+constexpr int kFewestAdded = 8;
 
 // Whether interpolated light is valid at a side. Interpolated light was gathered in the complete scene,
 // without antimatter, and in the global medium. For very tilted normals, its moments give the light less
@@ -40,6 +53,126 @@ int bouncesLeft(const RayOptions& o, const PathContext& ray) {
   int allowed = 0;
   for (double weight = ray.weight / 2; allowed < left && weight >= o.weightLimit; weight /= 2) ++allowed;
   return allowed;
+}
+
+// The noise of a gather, estimated from half of its rays, which are assigned to bins in turn.
+class GatherNoise {
+ public:
+  static constexpr int kBins = 12;
+
+  // The number of a ray, and the brightness of its part of the result.
+  void add(int ray, double part) { bins_[ray % kBins] += part; }
+
+  // The standard error of the whole gather relative to its result. An overestimate where light is smooth,
+  // since the rays of a bin are less evenly distributed than those of the half.
+  double ofWhole() const {
+    double sum = 0, squares = 0;
+    for (const double bin : bins_) {
+      sum += bin;
+      squares += bin * bin;
+    }
+    const double variance = std::max(0., squares - sum * sum / kBins) * kBins / (kBins - 1);
+    return sum > 0 ? std::sqrt(variance / 2) / sum : 0;
+  }
+
+ private:
+  std::array<double, kBins> bins_{};
+};
+
+// The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots.
+Aims aimsAt(const RayEnd& end, const PathSettings& settings, const PathState& state) {
+  Aims aims = settings.aims;
+  if (end.known != Known::no && !state.request.vertexLight->surfaces().portals().empty())
+    aims.openings = nullptr, aims.spots = nullptr;
+  return aims;
+}
+
+// A place that sends rays over its hemisphere.
+struct Gather {
+  const PreparedScene& prepared;
+  const PathSettings& settings;
+  Aims aims;
+  PathState& state;
+  RayFollower& follower;
+  const RayEnd& end;
+  const DiffuseSide& side;
+
+  // Calls found() for each ray with its part of the light. The rays bring a share of the light, and each has
+  // the weight that it has among `weighedAs`.
+  void send(int rays, int weighedAs, double share, FunctionRef<void(const Radiance& part)> found) const {
+    const GatherDirections directions(aims, side.point, side.normal, side.trueNormal, rays);
+    const Coefficient weight =
+        settings.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / weighedAs;
+    sendOverHemisphere(prepared, directions, state, end, side.point, side.kind, rays,
+                       side.coefficient * share, weight, [&](const NextRay& next) {
+                         if (next.context.ambientLevel == 1) countDescendants(settings, state, next.context);
+                         found(follower.follow(next.query, next.context).value * next.coefficient);
+                       });
+  }
+};
+
+// Whether a gather may send more rays than -ad and -as ask for. It may at imagined points (-I), whose noise
+// is not averaged with that of other gathers, unless -as 0 asks for no supersampling. Behind blinds and below
+// shafts this noise is most of the error, while most of the time goes into patches, which all points share.
+bool mayAddRays(const Gather& from, int rays) {
+  return from.settings.caches.field && isRayMode(from.settings.mode) && from.end.hit.surface == kNone &&
+         from.end.context.ambientLevel == 0 && from.prepared.options().ambientSuperSamples > 0 &&
+         rays >= 4 * GatherNoise::kBins;
+}
+
+// Half of the rays of a gather that may add more.
+struct Half {
+  Random random{0};  // as before its first ray
+  GatherNoise noise;
+  Radiance value{};
+  int added = 0;     // number of rays that are added
+  double share = 1;  // weight of its first rays in its light; the added ones have the rest
+};
+
+// Sends the first rays of each half again, with the same random numbers, to show them to the observer. When
+// they were sent first, their coefficients were not known yet.
+void showFirstRays(const Gather& from, const std::array<Half, 2>& halves, int ofHalf, int weighedAs) {
+  const Random after = from.state.random;
+  for (const Half& half : halves) {
+    from.state.random = half.random;
+    from.send(ofHalf, weighedAs, half.share / 2, [](const Radiance&) {});
+  }
+  from.state.random = after;
+}
+
+// Gathers by two independent halves and adds rays where they are noisy. The noise of each half decides how
+// many rays are added to the other one, so that both remain unbiased: a half that happens to miss what is
+// bright seems less noisy than it is, and would get too few rays by its own noise. For the same reason each
+// half is stratified by itself: of two halves that share their strata, one hits what the other misses.
+void gatherAccurately(const Gather& from, int rays, Radiance& value) {
+  const RayOptions& o = from.prepared.options();
+  const int ofHalf = rays / 2;
+  const double allowed = o.ambientAccuracy / kAccuracy;
+  std::array<Half, 2> halves;
+  const RayObserver* const observer = std::exchange(from.state.request.observer, nullptr);
+  for (Half& half : halves) {
+    int sent = 0;
+    half.random = from.state.random;
+    from.send(ofHalf, rays, .5, [&](const Radiance& part) {
+      half.value += part;
+      half.noise.add(sent++, brightness(part));
+    });
+  }
+  for (const int k : {0, 1}) {
+    Half& half = halves[k];
+    const double ratio = halves[1 - k].noise.ofWhole() / allowed;
+    const double asked = std::min((ratio * ratio - 1) * ofHalf, kMostAdded * o.ambientSuperSamples / 2);
+    if (!(asked >= ofHalf / kFewestAdded)) continue;  // also if it is not a number
+    half.added = static_cast<int>(asked);
+    half.share = ofHalf / static_cast<double>(ofHalf + half.added);
+  }
+  from.state.request.observer = observer;
+  if (observer) showFirstRays(from, halves, ofHalf, rays);
+  for (const Half& half : halves) {
+    value += half.value * Coefficient(half.share);
+    if (half.added > 0)
+      from.send(half.added, rays, (1 - half.share) / 2, [&](const Radiance& part) { value += part; });
+  }
 }
 
 }  // namespace
@@ -140,38 +273,23 @@ int IndirectLight::firstRays() const {
 
 void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const int rays = raysOf(end.context, side.coefficient), level = end.context.ambientLevel;
+  const Gather from{t_, settings_, aimsAt(end, settings_, state_), state_, follower_, end, side};
+  if (mayAddRays(from, rays)) return gatherAccurately(from, rays, value);
+  const auto send = [&](int count, int weighedAs, double share) {
+    from.send(count, weighedAs, share, [&](const Radiance& part) { value += part; });
+  };
   const int times = level <= 1 ? firstRays() : 1;
-  if (times == 1) return send(end, side, rays, {rays, 1}, value);
+  if (times == 1) return send(rays, rays, 1);
   if (level == 1) {
-    if (!looksOnly_) send(end, side, rays, {rays, static_cast<double>(times)}, value);
+    if (!looksOnly_) send(rays, rays, times);
     return;
   }
   // Sent separately, so that the rays that continue are as well stratified as without the others.
   looksOnly_ = false;
-  send(end, side, rays, {rays, 1. / times}, value);
+  send(rays, rays, 1. / times);
   looksOnly_ = true;
-  send(end, side, rays * (times - 1), {rays, 1 - 1. / times}, value);
+  send(rays * (times - 1), rays, 1 - 1. / times);
   looksOnly_ = false;
-}
-
-// The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots.
-Aims IndirectLight::aimsAt(const RayEnd& end) const {
-  Aims aims = settings_.aims;
-  if (end.known != Known::no && !state_.request.vertexLight->surfaces().portals().empty())
-    aims.openings = nullptr, aims.spots = nullptr;
-  return aims;
-}
-
-void IndirectLight::send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share,
-                         Radiance& value) {
-  const GatherDirections directions(aimsAt(end), side.point, side.normal, side.trueNormal, rays);
-  const Coefficient weight =
-      settings_.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / share.weighedAs;
-  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, rays, side.coefficient * share.part,
-                     weight, [&](const NextRay& next) {
-                       if (next.context.ambientLevel == 1) countDescendants(settings_, state_, next.context);
-                       value += follower_.follow(next.query, next.context).value * next.coefficient;
-                     });
 }
 
 // Links the patch that sent a ray to the patch at the diffuse surface where the ray ended. If there is no

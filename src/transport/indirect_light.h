@@ -3,7 +3,8 @@
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
 // and the light at later surfaces comes from the coarse solution (coarse_solution.h). In sphere mode, the
-// coarse solution is used at the first surface too. With -aa 0, light is gathered from -ad + -as stratified
+// coarse solution is used at the first surface too. At sensors (-I), light is not interpolated but gathered,
+// with more rays where the gather is noisy. With -aa 0, light is gathered from -ad + -as stratified
 // directions at the first diffuse surface, and from the same number as in RADIANCE at later ones.
 #include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
@@ -42,14 +43,6 @@ class IndirectLight {
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
   int firstRays() const;
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
-  // How the rays of send() enter a gather: they contribute the fraction `part` of it, and each ray has the
-  // weight of one of `weighedAs` rays.
-  struct Share {
-    int weighedAs;
-    double part;
-  };
-  Aims aimsAt(const RayEnd& end) const;
-  void send(const RayEnd& end, const DiffuseSide& side, int rays, const Share& share, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);
 
   const PreparedScene& t_;
