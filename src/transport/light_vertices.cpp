@@ -179,8 +179,9 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
 // Whether a light path enters the room through a portal. It ends there, because the paths that start on the
 // portal carry this light already.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
-  return all_.surfaces_.portals().isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction,
-                                         hit.distance);
+  const Portals& portals = all_.surfaces_.portals();
+  return !portals.empty() &&
+         portals.isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction, hit.distance);
 }
 
 bool LightVertices::Path::leaveSky(double where) {
