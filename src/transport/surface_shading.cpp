@@ -364,6 +364,7 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
   value +=
       coefficient * end.context.unjoinedShare *
       light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel}, state_.random, scratch_);
+  scratch_.outdoors = nullptr;
 }
 
 void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
