@@ -135,12 +135,12 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
     const double radiance = brightness(sourceRadiance(scene, surface));
     if (!distant || !(radiance > 0)) continue;
     const V3d direction = -distant->direction;
-    const double all = openings.areaTowards(direction);
+    const double all = areaTowards(openings.all(), direction);
     if (!(all > 0)) continue;
     const double each = radiance * distant->solidAngle * all / Tuning::kParticles;
     for (int i = 0; i < Tuning::kParticles; ++i) {
       const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
-      const V3d in = openings.pointTowards(direction, u1, u2, u3);
+      const V3d in = pointTowards(openings.all(), direction, u1, u2, u3);
       if (tracer.nearest(in, -direction).surface != kNone) continue;
       if (const auto particle = arrived(scene, tracer, in, direction, each, random))
         found.push_back(*particle);

@@ -37,24 +37,6 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   aim.finish(point);
 }
 
-double Openings::areaTowards(const V3d& direction) const {
-  double sum = 0;
-  for (const Opening& o : openings_) sum += std::max(0., direction.dot(o.normal)) * o.area();
-  return sum;
-}
-
-V3d Openings::pointTowards(const V3d& direction, double u1, double u2, double u3) const {
-  double due = u1 * areaTowards(direction);
-  const Opening* chosen = nullptr;
-  for (const Opening& o : openings_) {
-    const double area = std::max(0., direction.dot(o.normal)) * o.area();
-    if (area > 0) chosen = &o;
-    if (due < area) break;
-    due -= area;
-  }
-  return chosen->at(u2, u3);
-}
-
 V3d Openings::sample(const Aim& aim, double u1, double u2, double u3) const {
   return (openings_[aim.number[aim.chosen(u1)]].at(u2, u3) - aim.point).normalized();
 }

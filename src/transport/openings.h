@@ -6,6 +6,7 @@
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,11 +58,7 @@ class Openings {
   // The density of the directions from sample(), per sr.
   double density(const Aim& aim, const V3d& direction) const;
 
-  // areaTowards(): the projected area (square world units) of the openings for light that enters in this
-  // direction (unit). pointTowards(): a point on them, uniform by projected area; u1, u2, u3: uniform in [0,
-  // 1). REQUIRES that this area is above 0.
-  double areaTowards(const V3d& direction) const;
-  V3d pointTowards(const V3d& direction, double u1, double u2, double u3) const;
+  std::span<const Opening> all() const { return openings_; }
 
  private:
   std::vector<Opening> openings_;

@@ -42,25 +42,6 @@ double Portals::leaving(const V3d& origin, const V3d& direction, double farthest
   return nearest < farthest ? nearest : kFarAway;
 }
 
-double Portals::areaTowards(const V3d& direction) const {
-  double sum = 0;
-  for (const Portal& p : portals_) sum += std::max(0., direction.dot(p.normal)) * p.area();
-  return sum;
-}
-
-V3d Portals::pointTowards(const V3d& direction, Random& random) const {
-  double due = random.uniform() * areaTowards(direction);
-  const Portal* chosen = nullptr;
-  for (const Portal& p : portals_) {
-    const double area = std::max(0., direction.dot(p.normal)) * p.area();
-    if (area > 0) chosen = &p;
-    if (due < area) break;
-    due -= area;
-  }
-  const double u = random.uniform(), v = random.uniform();
-  return chosen->at(u, v);
-}
-
 PortalDirections::PortalDirections(const Portals& portals, const V3d& point, const V3d& normal)
     : point_(point), normal_(normal) {
   double sum = 0;

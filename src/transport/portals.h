@@ -36,11 +36,6 @@ class Portals {
     return leaving(origin, direction, farthest) < farthest;
   }
 
-  // The projected area (square world units) of the portals for light that enters in this direction (unit);
-  // and a point on them, uniform by projected area. The point REQUIRES an area above 0.
-  double areaTowards(const V3d& direction) const;
-  V3d pointTowards(const V3d& direction, Random& random) const;
-
  private:
   std::vector<Portal> portals_;
   double lift_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 // Bounding rectangles of coplanar polygons.
+#include <algorithm>
 #include <span>
 
 #include "scene/scene.h"
@@ -15,6 +16,30 @@ struct Rectangle {
   // The point at these fractions of the width and the height.
   V3d at(double u, double v) const { return corner + u * width * x + v * height * y; }
 };
+
+// The projected area (square world units) of openings for light that enters in this direction (unit). Their
+// normals point to the dark side.
+template <class Opening>
+double areaTowards(std::span<const Opening> openings, const V3d& direction) {
+  double sum = 0;
+  for (const Opening& o : openings) sum += std::max(0., direction.dot(o.normal)) * o.area();
+  return sum;
+}
+
+// A point on them, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES that this area is above
+// 0.
+template <class Opening>
+V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3) {
+  double due = u1 * areaTowards(openings, direction);
+  const Opening* chosen = nullptr;
+  for (const Opening& o : openings) {
+    const double area = std::max(0., direction.dot(o.normal)) * o.area();
+    if (area > 0) chosen = &o;
+    if (due < area) break;
+    due -= area;
+  }
+  return chosen->at(u2, u3);
+}
 
 // The smallest rectangle around coplanar polygons that is aligned with the longest edge of the first polygon.
 // Edges whose lengths differ only by rounding are treated as equal, and the first is used. The normal is that

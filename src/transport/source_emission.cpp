@@ -37,7 +37,7 @@ SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurface
     if (!surfaces.knows(i) || lights[i].isVirtual()) continue;
     if (lights[i].isDistant()) {
       s.even = true;
-      s.area = surfaces.portals().areaTowards(-lights[i].center);
+      s.area = areaTowards(surfaces.portals().all(), -lights[i].center);
       s.power = brightness(*prepared.lights().constantRadiance(i)) * distantOf(scene, lights[i]).solidAngle *
                 s.area;
       continue;
@@ -117,11 +117,12 @@ SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, Random& ran
   const LightSource& light = prepared_.lights().all()[source];
   const Portals& portals = surfaces_.portals();
   const V3d towards = withinCone(light.center, distantOf(prepared_.scene(), light).solidAngle, random);
-  const double area = portals.areaTowards(-towards);
+  const double area = areaTowards(portals.all(), -towards);
   Leaving way;
   way.direction = way.from.normal = -towards;
   if (!(area > 0)) return way;
-  const V3d at = portals.pointTowards(way.direction, random);
+  const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+  const V3d at = pointTowards(portals.all(), way.direction, u1, u2, u3);
   way.from.point = at;
   const Radiance& radiance = *prepared_.lights().constantRadiance(source);
   way.power = Irradiance(radiance.color * surfaces_.passingToSource(at, towards, kFarAway, kNone).color *
@@ -194,7 +195,9 @@ double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& nor
   if (prepared_.lights().all()[sample.source].isDistant()) {
     const Sender& sender = senders_[sample.source];
     const double lightPaths = sender.density * sender.area * normal.dot(sample.direction);
-    return lightPaths > 0 ? probability * surfaces_.portals().areaTowards(-sample.direction) / lightPaths : 0;
+    return lightPaths > 0
+               ? probability * areaTowards(surfaces_.portals().all(), -sample.direction) / lightPaths
+               : 0;
   }
   const double cosine = std::abs(sample.cosine), d = sample.distance;
   const double lightPaths =

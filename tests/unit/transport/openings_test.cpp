@@ -1,5 +1,3 @@
-#include "transport/find_openings.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
+#include "transport/find_openings.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -204,16 +203,16 @@ TEST(Openings, AreAimedAtAsDensitySays) {
 TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
   const Openings window = openingsOf(kSky + kRoom + kLid + kWindow);
   const V3d in = V3d(.3, 1, -.5).normalized();
-  EXPECT_NEAR(window.areaTowards(V3d(0, 1, 0)), 2, 1e-9);
-  EXPECT_NEAR(window.areaTowards(in), 2 * in.y, 1e-9);
-  EXPECT_EQ(window.areaTowards(-in), 0) << "on its way out";
+  EXPECT_NEAR(areaTowards(window.all(), V3d(0, 1, 0)), 2, 1e-9);
+  EXPECT_NEAR(areaTowards(window.all(), in), 2 * in.y, 1e-9);
+  EXPECT_EQ(areaTowards(window.all(), -in), 0) << "on its way out";
   const Openings both = openingsOf(kSky + kRoom + kWindow + kSkylight);
-  EXPECT_NEAR(both.areaTowards(in), 2 * in.y - .36 * in.z, 1e-9);
+  EXPECT_NEAR(areaTowards(both.all(), in), 2 * in.y - .36 * in.z, 1e-9);
   Random random(1);
   Sample onWindow, x, z;
   for (int i = 0; i < 4000; ++i) {
     const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
-    const V3d at = both.pointTowards(in, u1, u2, u3);
+    const V3d at = pointTowards(both.all(), in, u1, u2, u3);
     const bool isWindow = std::abs(at.y) < 1e-9;
     onWindow.add(isWindow);
     if (!isWindow) {
@@ -224,7 +223,7 @@ TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
     x.add(at.x);
     z.add(at.z);
   }
-  expectMean(onWindow, 2 * in.y / both.areaTowards(in), 1.05);
+  expectMean(onWindow, 2 * in.y / areaTowards(both.all(), in), 1.05);
   expectMean(x, 2);
   expectMean(z, 1.5);
 }
