@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "importance/tuning.h"
+#include "light/surface_point.h"
 #include "scene/random.h"
 #include "shade/scattering.h"
 #include "sphere/directions.h"
@@ -28,11 +29,13 @@ size_t glancesFor(const SphereOptions& options) {
   return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMost));
 }
 
-V3d anyDirection(Random& random) {
-  const double z = 1 - 2 * random.uniform(), angle = 2 * kPi * random.uniform();
-  const double r = std::sqrt(std::max(0., 1 - z * z));
-  return V3d(r * std::cos(angle), r * std::sin(angle), z);
-}
+// OutdoorRadiance by a tracer.
+struct Outdoors {
+  PathTracer& tracer;
+  Radiance operator()(const V3d& origin, const V3d& direction, int bounces, Random& random) const {
+    return tracer.outdoors(origin, direction, bounces, random.bits());
+  }
+};
 
 size_t poolsFor(const SphereOptions& options) {
   return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
@@ -190,9 +193,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& trac
   addJoins(set, joins, records, found);
 
   Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};
-  const auto beyond = [&](const V3d& origin, const V3d& direction, int bounces, Random& random) {
-    return tracer.outdoors(origin, direction, bounces, random.bits());
-  };
+  const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
   glancing.scratch.outdoors = &outdoors;
   std::vector<DirectionSample> seen;
@@ -260,7 +261,7 @@ bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces)
   FunctionScratch scratch;
   size_t past = 0;
   for (size_t i = 0; i < Tuning::kWalks; ++i) {
-    V3d origin = point, direction = anyDirection(random);
+    V3d origin = point, direction = uniformDirection(random);
     SurfaceId start;
     for (int hits = 0; hits <= bounces; ++hits) {
       const Sight sight = surfaces.look(origin, direction, kFarAway, start);
@@ -281,9 +282,7 @@ Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size
                                PathTracer& tracer) const {
   const std::shared_ptr<const VertexLight> own = light(set);
   Glancing alone{*own, randomOf(set, Stream::single, number)};
-  const auto beyond = [&](const V3d& origin, const V3d& to, int bounces, Random& random) {
-    return tracer.outdoors(origin, to, bounces, random.bits());
-  };
+  const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
   alone.scratch.outdoors = &outdoors;
   return glance(set.point(), direction, alone);

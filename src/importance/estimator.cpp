@@ -160,10 +160,15 @@ std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const Directi
   return errors;
 }
 
+// Whether the default strategy (-Sw c) sends directions to special objects (-Sk above 0).
+bool sendsToSpecialObjects(const SphereOptions& options) {
+  return options.weights == Weights::silhouettes && options.densityFactor > 0;
+}
+
 // Null where light vertices miss some of the light, and for strategies that do not use them.
 std::unique_ptr<const DiffuseGlances> glancesFor(const PreparedScene& prepared, const SphereOptions& options,
                                                  const BaseSet& base) {
-  if (options.weights != Weights::silhouettes || !(options.densityFactor > 0)) return nullptr;
+  if (!sendsToSpecialObjects(options)) return nullptr;
   return DiffuseGlances::make(prepared, options, base);
 }
 
@@ -191,8 +196,8 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   const PreparedScene& prepared = transport.prepared();
   if (options.weights != Weights::homogeneous)
     special_ = findSpecialObjects(prepared.scene(), options.densityFactor);
-  usual_.strategy = makeStrategy();
-  if (!usual_.glances && options.weights == Weights::silhouettes && options.densityFactor > 0)
+  usual_.strategy = makeStrategy(usual_);
+  if (!usual_.glances && sendsToSpecialObjects(options))
     if (auto surfaces = daylitSurfaces(usual_.tracing))
       daylit_ = std::make_unique<Daylit>(std::move(*surfaces));
   if (options.accuracy > 0)
@@ -204,7 +209,7 @@ SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport,
   auto glances = glancesFor(transport.prepared(), options, base);
   const bool haveVertices = glances != nullptr;
   SphereTracing tracing{transport.prepared(), cachesFor(transport, haveVertices)};
-  if (options.weights == Weights::silhouettes && options.densityFactor > 0) {
+  if (sendsToSpecialObjects(options)) {
     if (haveVertices)
       tracing.vertexLight = glances->lightOfAll();
     else
@@ -227,25 +232,24 @@ const SamplingStrategy& SphereEstimator::strategyFor(const V3d& point) const {
     return *usual_.strategy;
   std::call_once(daylit_->made, [&] {
     Method& made = daylit_->method.emplace(daylitMethod(daylit_->surfaces));
-    made.strategy = std::make_unique<SilhouetteWeights>(made.tracing, options_, base_, special_, sources_,
-                                                        made.glances.get());
+    made.strategy = makeStrategy(made);
   });
   return *daylit_->method->strategy;
 }
 
 double SphereEstimator::sharedError() const { return coarseError(usual_.tracing); }
 
-std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy() const {
+std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy(const Method& method) const {
   switch (options_.weights) {
     case Weights::homogeneous:
       return std::make_unique<EqualWeights>(options_, base_);
     case Weights::voronoi:
-      return std::make_unique<VoronoiWeights>(usual_.tracing.prepared.scene(), options_, base_, special_);
+      return std::make_unique<VoronoiWeights>(method.tracing.prepared.scene(), options_, base_, special_);
     case Weights::silhouettes:
       break;
   }
-  return std::make_unique<SilhouetteWeights>(usual_.tracing, options_, base_, special_, sources_,
-                                             usual_.glances.get());
+  return std::make_unique<SilhouetteWeights>(method.tracing, options_, base_, special_, sources_,
+                                             method.glances.get());
 }
 
 SphereEstimator::Workspace::Workspace(const SphereEstimator& estimator)

@@ -87,7 +87,7 @@ class SphereEstimator {
     std::unique_ptr<const SamplingStrategy> strategy{};
   };
   static Method usualMethod(const Transport& transport, const SphereOptions& options, const BaseSet& base);
-  std::unique_ptr<const SamplingStrategy> makeStrategy() const;
+  std::unique_ptr<const SamplingStrategy> makeStrategy(const Method& method) const;
   Method daylitMethod(const PlainSurfaces& surfaces) const;
   const SamplingStrategy& strategyFor(const V3d& point) const;
 

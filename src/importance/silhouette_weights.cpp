@@ -105,7 +105,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const std::vector<SeenSources::Sample> toImages =
       sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));
   const Plan plan = planFor(set, view, toImages);
-  const SampledSet others = traced(set, view, plan, paths, tracer);
+  const SampledSet others = traced(set, view, plan, paths);
   DiffuseGlances::Found beyond = beyondGuesses(set, view, others.samples);
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
@@ -190,7 +190,7 @@ void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) cons
 }
 
 SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, const Plan& plan,
-                                     const PathsFrom& paths, PathTracer& tracer) const {
+                                     const PathsFrom& paths) const {
   SampledSet sampled;
   std::vector<CellInTarget> cells;
   sampled.samples.reserve(plan.directions.size());
@@ -209,7 +209,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     sample.region = enters ? region.id : kNoRegion;
     if (enters) {
       sample.value = ray.value;
-      sample.guess = guessAlong(set, view, i, direction, ray, tracer);
+      sample.guess = guessAlong(set, view, i, direction, ray, paths);
       if (glances_) sample.value += sample.guess;
     }
     sampled.samples.push_back(sample);
@@ -223,9 +223,11 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
 // If glances find all light of diffuse surfaces, traced rays leave it out. With -Sd, one glance along each
 // direction then estimates it.
 Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
-                                       const V3d& direction, const TracedRay& ray, PathTracer& tracer) const {
+                                       const V3d& direction, const TracedRay& ray,
+                                       const PathsFrom& paths) const {
   if (view.guess) return view.guess->from(guidance_->guess.placeOf(set.point(), direction, ray.firstHit));
-  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1, tracer) : Radiance();
+  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1, paths.tracer())
+                                             : Radiance();
 }
 
 DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, const View& view,

@@ -77,11 +77,10 @@ class SilhouetteWeights : public SamplingStrategy {
 
   // Stage 3: traces and weights the directions of the plan. Directions that show a separately sampled image
   // of a light source are in kNoRegion, with solid angle, radiance and guess 0.
-  SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths,
-                    PathTracer& tracer) const;
+  SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
   // The light along direction number i that is estimated by glances.
   Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
-                      const TracedRay& ray, PathTracer& tracer) const;
+                      const TracedRay& ray, const PathsFrom& paths) const;
 
   // Stage 4: the correction of the control variate: light found by glances, minus the guesses of the
   // directions.

@@ -31,9 +31,7 @@ SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& r
 }
 
 SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Random& random) {
-  const double z = 1 - 2 * random.uniform(), angle = kTwoPi * random.uniform();
-  const double r = std::sqrt(std::max(0., 1 - z * z));
-  const V3d out(r * std::cos(angle), r * std::sin(angle), z);
+  const V3d out = uniformDirection(random);
   return {sphere.center + sphere.radius * out, sphere.inward ? -out : out, clearanceOf(sphere.radius)};
 }
 
@@ -58,6 +56,12 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
 }
 
 }  // namespace
+
+V3d uniformDirection(Random& random) {
+  const double z = 1 - 2 * random.uniform(), angle = kTwoPi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - z * z));
+  return V3d(r * std::cos(angle), r * std::sin(angle), z);
+}
 
 SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random) {
   return match(

@@ -19,4 +19,7 @@ struct SurfacePoint {
 // vertices: Scene::vertices.
 SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random);
 
+// A random direction (unit), uniform over the sphere.
+V3d uniformDirection(Random& random);
+
 }  // namespace rsphere

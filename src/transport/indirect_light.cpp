@@ -16,15 +16,7 @@
 namespace rsphere {
 namespace {
 
-// A sensor (-I) adds rays until the standard error of its gather is at most -aa divided by kAccuracy, or
-// until kMostAdded times -as are added. Chosen by experiment: with 8, variance x time is 1.27 times as large
-// as without added rays in a room of glass and metal, because two halves are stratified worse than a whole;
-// with 12 it is 1.10 times as large (tests/bench/rtrace/runs/2026-11-26-sensors.txt).
-constexpr double kAccuracy = 12, kMostAdded = 8;
-
-// If the rays to be added are fewer than those already sent divided by this, none are added, because so few
-// would be unevenly distributed over the hemisphere.
-constexpr int kFewestAdded = 8;
+using Tuning = tuning::SensorNoise;
 
 // Whether interpolated light is valid at a side. Interpolated light was gathered in the complete scene,
 // without antimatter, and in the global medium. For very tilted normals, its moments give the light less
@@ -82,8 +74,10 @@ class GatherNoise {
 // The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots.
 Aims aimsAt(const RayEnd& end, const PathSettings& settings, const PathState& state) {
   Aims aims = settings.aims;
-  if (end.known != Known::no && !state.request.vertexLight->surfaces().portals().empty())
-    aims.openings = nullptr, aims.spots = nullptr;
+  if (end.known != Known::no && !state.request.vertexLight->surfaces().portals().empty()) {
+    aims.openings = nullptr;
+    aims.spots = nullptr;
+  }
   return aims;
 }
 
@@ -147,7 +141,7 @@ void showFirstRays(const Gather& from, const std::array<Half, 2>& halves, int of
 void gatherAccurately(const Gather& from, int rays, Radiance& value) {
   const RayOptions& o = from.prepared.options();
   const int ofHalf = rays / 2;
-  const double allowed = o.ambientAccuracy / kAccuracy;
+  const double allowed = o.ambientAccuracy / Tuning::kAccuracy;
   std::array<Half, 2> halves;
   const RayObserver* const observer = std::exchange(from.state.request.observer, nullptr);
   for (Half& half : halves) {
@@ -161,15 +155,16 @@ void gatherAccurately(const Gather& from, int rays, Radiance& value) {
   for (const int k : {0, 1}) {
     Half& half = halves[k];
     const double ratio = halves[1 - k].noise.ofWhole() / allowed;
-    const double asked = std::min((ratio * ratio - 1) * ofHalf, kMostAdded * o.ambientSuperSamples / 2);
-    if (!(asked >= ofHalf / kFewestAdded)) continue;  // also if it is not a number
+    const double asked =
+        std::min((ratio * ratio - 1) * ofHalf, Tuning::kMostAdded * o.ambientSuperSamples / 2);
+    if (!(asked >= ofHalf / Tuning::kFewestAdded)) continue;  // also if it is not a number
     half.added = static_cast<int>(asked);
     half.share = ofHalf / static_cast<double>(ofHalf + half.added);
   }
   from.state.request.observer = observer;
   if (observer) showFirstRays(from, halves, ofHalf, rays);
   for (const Half& half : halves) {
-    value += half.value * Coefficient(half.share);
+    value += half.value * half.share;
     if (half.added > 0)
       from.send(half.added, rays, (1 - half.share) / 2, [&](const Radiance& part) { value += part; });
   }

@@ -101,7 +101,7 @@ class LightVertices::Path {
 
  private:
   bool leave(double where);
-  bool leaveSky(double where);
+  void leaveSky(double where);
   bool entersAgain(const Hit& hit) const;
   bool passPane(const Hit& hit);
   bool meetMirror(const Hit& hit);
@@ -184,7 +184,7 @@ bool LightVertices::Path::entersAgain(const Hit& hit) const {
          portals.isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction, hit.distance);
 }
 
-bool LightVertices::Path::leaveSky(double where) {
+void LightVertices::Path::leaveSky(double where) {
   const SkyEmission::Leaving way =
       all_.starts_.onPortals.leave(where, prepared_.options().ambientBounces - 1, random_, *outdoors_);
   beam_.origin = way.origin;
@@ -193,11 +193,13 @@ bool LightVertices::Path::leaveSky(double where) {
   past_.way = LightVertex::unweighed;  // the places in view look for it themselves
   past_.fromSource = false;
   past_.bounces = way.bounces;
-  return true;
 }
 
 bool LightVertices::Path::leave(double where) {
-  if (where < all_.starts_.shareOfSky) return leaveSky(where / all_.starts_.shareOfSky);
+  if (where < all_.starts_.shareOfSky) {
+    leaveSky(where / all_.starts_.shareOfSky);
+    return true;
+  }
   past_.source =
       all_.starts_.onSources.sourceAt((where - all_.starts_.shareOfSky) / (1 - all_.starts_.shareOfSky));
   if (past_.source == kNone) return false;

@@ -66,6 +66,7 @@ class PathsFrom {
       : tracer_(tracer), point_(point), request_(request) {}
 
   const V3d& point() const { return point_; }
+  PathTracer& tracer() const { return tracer_; }
   TracedRay trace(const V3d& direction, uint64_t seed) const {
     return tracer_.trace(point_, direction, 0, seed, request_);
   }

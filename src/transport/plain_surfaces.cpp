@@ -38,6 +38,12 @@ bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKi
   return true;
 }
 
+bool hasMist(const Scene& scene) {
+  for (const auto& modifier : scene.modifiers)
+    if (holds<Mist>(std::get_if<Material>(&modifier.content))) return true;
+  return false;
+}
+
 bool changeNothing(const RayOptions& o) {
   return o.backFacesVisible && o.directJitter >= 1 && o.specularSampling >= 1 && o.specularThreshold <= 0 &&
          o.directThreshold <= 0 && o.chosenSources == 0 && o.ambientDivisions > 0 &&
@@ -140,9 +146,7 @@ void PlainSurfaces::findSurfaces() {
 const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!portals_.empty()) {
-    for (const auto& modifier : scene_.modifiers)
-      if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material))
-        return "mist";
+    if (hasMist(scene_)) return "mist";
     return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
@@ -151,9 +155,7 @@ const char* PlainSurfaces::obstacle() const {
   // estimation only pays around a goal. Measured: around a goal half the error in twice the time; by lamps
   // the same error in two thirds more time.
   if (!coverage_.all && !scene_.importance) return "surfaces or sources that are not known";
-  for (const auto& modifier : scene_.modifiers)
-    if (const auto* material = std::get_if<Material>(&modifier.content); holds<Mist>(material)) return "mist";
-  return nullptr;
+  return hasMist(scene_) ? "mist" : nullptr;
 }
 
 Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& normal, const V3d& direction,

@@ -7,13 +7,14 @@ namespace rsphere {
 
 SkyEmission::SkyEmission(const Portals& portals, double paths) : portals_(portals) {
   if (!(paths > 0)) return;
-  for (const Portal& p : portals.all()) pathPower_ += kPi * p.area() * p.radiance / paths;
+  for (const Portal& p : portals.all()) {
+    pathPower_ += kPi * p.area() * p.radiance / paths;
+    sum_ += p.area() * p.radiance;
+  }
 }
 
 SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, OutdoorParts outdoors) const {
-  double sum = 0;
-  for (const Portal& p : portals_.all()) sum += p.area() * p.radiance;
-  double due = where * sum;
+  double due = where * sum_;
   const Portal* portal = portals_.all().data();
   for (const Portal* const last = portal + portals_.all().size() - 1; portal < last; ++portal)
     if ((due -= portal->area() * portal->radiance) < 0) break;

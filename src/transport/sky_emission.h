@@ -28,6 +28,7 @@ class SkyEmission {
  private:
   const Portals& portals_;
   double pathPower_ = 0;
+  double sum_ = 0;  // of area times radiance over the portals
 };
 
 }  // namespace rsphere

@@ -120,6 +120,18 @@ struct Openings {
   static constexpr double kFilled = .5;
 };
 
+// Rays that a sensor (-I) adds where its gather is noisy (indirect_light.cpp).
+struct SensorNoise {
+  // Rays are added until the standard error of the gather is at most -aa divided by kAccuracy, or until
+  // kMostAdded times -as are added. Chosen by experiment: with 8, variance x time is 1.27 times as large as
+  // without added rays in a room of glass and metal, because two halves are stratified worse than a whole;
+  // with 12 it is 1.10 times as large (tests/bench/rtrace/runs/2026-11-26-sensors.txt).
+  static constexpr double kAccuracy = 12, kMostAdded = 8;
+  // If the rays to be added are fewer than those already sent divided by this, none are added, because so few
+  // would be unevenly distributed over the hemisphere.
+  static constexpr int kFewestAdded = 8;
+};
+
 // Openings as light sources of paths from both ends (portals.cpp).
 struct Portals {
   // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the

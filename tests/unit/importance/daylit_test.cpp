@@ -5,6 +5,7 @@
 #include <string>
 
 #include "importance/diffuse_glances.h"
+#include "tests/unit/support/room_with_hole.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
@@ -13,17 +14,8 @@
 namespace rsphere {
 namespace {
 
-// A room of 4 x 4 x 3 m, with a window of 2 x 1 m in its south wall.
-const std::string kRoom = R"(
-void plastic gray 0 0 5 .6 .5 .4 0 0
-void glass clear 0 0 3 .9 .92 .9
-gray polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0
-gray polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3
-gray polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0
-gray polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3
-gray polygon roof 0 0 12 0 0 3 4 0 3 4 4 3 0 4 3
-gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 3 0 2 3 0 1 1 0 1
-)";
+const std::string kRoom =
+    "void plastic gray 0 0 5 .6 .5 .4 0 0\nvoid glass clear 0 0 3 .9 .92 .9\n" + kRoomWithHole;
 const std::string kPane = "clear polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
 const std::string kInnerPane = "clear polygon inner 0 0 12 1 .3 1 3 .3 1 3 .3 2 1 .3 2\n";
 const std::string kCanopy = "clear polygon canopy 0 0 12 0 -2 2.8 4 -2 2.8 4 -.1 2.8 0 -.1 2.8\n";

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/constants.h"
+#include "tests/unit/support/room_with_hole.h"
 #include "tests/unit/support/statistics.h"
 #include "tests/unit/transport/transport_fixture.h"
 #include "transport/find_openings.h"
@@ -13,18 +14,8 @@
 namespace rsphere {
 namespace {
 
-// A room of 4 x 4 x 3 m below a sky, with a hole of 2 x 1 m in its south wall.
-constexpr const char* kHoleInWall = R"(
-void plastic gray 0 0 5 .5 .5 .5 0 0
-gray polygon floor 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0
-gray polygon west 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3
-gray polygon east 0 0 12 4 0 0 4 0 3 4 4 3 4 4 0
-gray polygon north 0 0 12 0 4 0 4 4 0 4 4 3 0 4 3
-gray polygon roof 0 0 12 0 0 3 4 0 3 4 4 3 0 4 3
-gray polygon south 0 0 30 0 0 0 4 0 0 4 0 3 0 0 3 0 0 0 1 0 1 1 0 2 3 0 2 3 0 1 1 0 1
-void glow sky_glow 0 0 4 1 1 1 0
-sky_glow source sky 0 0 4 0 0 1 360
-)";
+const std::string kHoleInWall = "void plastic gray 0 0 5 .5 .5 .5 0 0\n" + kRoomWithHole +
+                                "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n";
 
 struct Hole {
   Traced traced{kHoleInWall, unbiased(1)};
