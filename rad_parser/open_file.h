@@ -18,7 +18,7 @@ namespace rad {
 // and errno is the reason.
 class OpenFile {
  public:
-  explicit OpenFile(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (descriptor_ >= 0) fstat(descriptor_, &begin_);
   }
   ~OpenFile() {

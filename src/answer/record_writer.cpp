@@ -12,13 +12,13 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kBlock = 65536;  // the capacity of a pipe on Linux
+constexpr size_t kPipeCapacity = 65536;  // on Linux
 
 }  // namespace
 
 void RecordWriter::write(std::string_view bytes) {
   pending_ += bytes;
-  if (!hold_ && pending_.size() >= kBlock) flush();
+  if (!hold_ && pending_.size() >= kPipeCapacity) flush();
 }
 
 void RecordWriter::flush() {

@@ -11,10 +11,8 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::CoarseSolution;
-
-// The -aa at which Tuning::kSpacing is the relative side of a patch, and Tuning::kRays its relative number of
-// rays.
+// The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its relative number
+// of rays.
 constexpr double kUsualAccuracy = .1;
 
 // Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
@@ -27,7 +25,8 @@ constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 
 // Whether a site lies on a ball or a cone, and all surfaces around it are near compared with the radius.
 bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
-  return chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < Tuning::kEnclosed * chart.extent();
+  return chart.isCurved() && seen.covered >= 1 &&
+         seen.rootMeanSquare < tuning::CoarseSolution::kEnclosed * chart.extent();
 }
 
 }  // namespace
@@ -43,8 +42,8 @@ struct CoarseSolution::Division {
 struct Patch {
   bool usable = false;  // it has a gather site
   GatherSite site;
-  double reach = 0;         // harmonic mean distance of its surroundings
-  double share = 0;         // in the light on the room's other surfaces: see Tuning::kUsualShare
+  double reach = 0;  // harmonic mean distance of its surroundings
+  double share = 0;  // in the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::atomic<const PatchLinks*> links{nullptr};
@@ -67,8 +66,9 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       bounces_(std::max(options.bounces, 1)),
-      coarserLinks_(std::max(options.coarserLinks,
-                             room > 0 || options.patchesAtFirst ? 0 : Tuning::kCoarserLinksByLamps)),
+      coarserLinks_(std::max(options.coarserLinks, room > 0 || options.patchesAtFirst
+                                                       ? 0
+                                                       : tuning::CoarseSolution::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // single precision, like all light stored here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
@@ -78,24 +78,27 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
-  const double accuracy = std::max(options.accuracy, Tuning::kFinestAccuracy) / kUsualAccuracy;
+  const double accuracy =
+      std::max(options.accuracy, tuning::CoarseSolution::kFinestAccuracy) / kUsualAccuracy;
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   if (!daylit)
-    return {Tuning::kCoarserByLamps * Tuning::kSpacing * finer,
-            Tuning::kCoarserByLamps * Tuning::kLeastPatch,
-            Tuning::kCoarserByLamps * Tuning::kFarPatch,
-            Tuning::kRays * options.rays,
+    return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
+            tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
+            tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kFarPatch,
+            tuning::CoarseSolution::kRays * options.rays,
             options.patchesAtFirst ? 1. : 0.,
             1,
-            options.patchesAtFirst ? Tuning::kCoarserByLamps * Tuning::kCoarserByLamps * Tuning::kLeastRays
-                                   : Tuning::kLeastRays};
-  return {Tuning::kSpacing * finer,
-          Tuning::kLeastPatch,
-          Tuning::kFarPatch,
-          Tuning::kRays * options.rays * std::max(1., 1 / accuracy),
+            options.patchesAtFirst
+                ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
+                      tuning::CoarseSolution::kLeastRays
+                : tuning::CoarseSolution::kLeastRays};
+  return {tuning::CoarseSolution::kSpacing * finer,
+          tuning::CoarseSolution::kLeastPatch,
+          tuning::CoarseSolution::kFarPatch,
+          tuning::CoarseSolution::kRays * options.rays * std::max(1., 1 / accuracy),
           0,
-          Tuning::kMoreRays,
-          Tuning::kLeastRays};
+          tuning::CoarseSolution::kMoreRays,
+          tuning::CoarseSolution::kLeastRays};
 }
 
 Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
@@ -118,14 +121,15 @@ Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, Fi
 
 // The level of the smallest patches of a surface. leastSide: their side relative to the surface's extent.
 int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) const {
-  return grid_.levelOf(leastSide * std::min(chart.extent(), Tuning::kWidestExtent * grid_.size));
+  return grid_.levelOf(leastSide *
+                       std::min(chart.extent(), tuning::CoarseSolution::kWidestExtent * grid_.size));
 }
 
 // Whether an entire side of a surface lies in a narrow gap, as between nested shells. A surface that another
 // object approaches only in places is not enclosed.
 bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
-    for (size_t i = 0; i < Tuning::kEnclosedPlaces; ++i) {
+    for (size_t i = 0; i < tuning::CoarseSolution::kEnclosedPlaces; ++i) {
       const auto site = chart.siteWithin(grid_, evenly(i, .5, .5));
       if (!site) continue;
       enclosed = isInNarrowShell(rays.surroundings(*site), chart);
@@ -139,7 +143,8 @@ bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
                                                            FieldRays& rays) {
   const double open = tuning::Fields::kOpen * grid_.size;
-  const int finestEnclosed = std::min(finest, finestLevel(chart, Tuning::kLeastPatchEnclosed));
+  const int finestEnclosed =
+      std::min(finest, finestLevel(chart, tuning::CoarseSolution::kLeastPatchEnclosed));
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
   return divisions_->findOrAdd(key, [&](Division& found) {
     const double u = (static_cast<double>(key.i) + .5) * chart.stepU(grid_, finest),
@@ -164,16 +169,16 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   if (!chart) return nullptr;
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < Tuning::kHalf * std::max(division.side, suffices)) return nullptr;
+  if (chart->extent() < tuning::CoarseSolution::kHalf * std::max(division.side, suffices)) return nullptr;
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < Tuning::kHalf * grid_.side(level)) return nullptr;
-  level = std::max(
-      level, std::min(grid_.levelOf(Tuning::kHalf * place.distance), std::min(enough, division.finest)));
+  if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return nullptr;
+  level = std::max(level, std::min(grid_.levelOf(tuning::CoarseSolution::kHalf * place.distance),
+                                   std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
   // Light varies across closely spaced strips such as slats, because neighbouring strips hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
-    chart->divideAcross(Tuning::kPartsAcross);
+    chart->divideAcross(tuning::CoarseSolution::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
   const auto serves = [&](const Patch& patch) { return patch.usable && rays.sees(patch.site.point, above); };
   {
@@ -193,7 +198,8 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
   // Patches with a larger share in the light of others get more rays, because their noise matters more.
-  const double part = std::clamp(patch.share / Tuning::kUsualShare, effort_.fewer, effort_.more);
+  const double part =
+      std::clamp(patch.share / tuning::CoarseSolution::kUsualShare, effort_.fewer, effort_.more);
   const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
   auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
   const PatchLinks* first = nullptr;

@@ -17,8 +17,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::IrradianceField;
-
 // Substitute for -ar if it is 0 (no limit). Cells of this resolution resolve crumbs on a table: .15 mm in a
 // room of 10 m, at -aa .15.
 constexpr int kUnlimited = 65536;
@@ -37,9 +35,10 @@ constexpr size_t kNoBound = SIZE_MAX;
 // the surfaces. The value is 1 minus a margin for rounding.
 constexpr double kAllServed = 1 - 1e-9;
 
-// Weight of a level of cells in an answer: 1 if roughness is below 1, and 0 above Tuning::kNoneAbove.
+// Weight of a level of cells in an answer: 1 if roughness is below 1, and 0 above kNoneAbove.
 double shareOf(double roughness) {
-  return std::clamp((Tuning::kNoneAbove - roughness) / (Tuning::kNoneAbove - 1), 0., 1.);
+  return std::clamp(
+      (tuning::IrradianceField::kNoneAbove - roughness) / (tuning::IrradianceField::kNoneAbove - 1), 0., 1.);
 }
 
 // The gather site of a cell, and its light after it has been gathered.
@@ -164,7 +163,7 @@ Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& k
       made.at = *at;
       const Surroundings seen = asked.rays.surroundings(*at);
       made.reach = seen.harmonicMean;
-      made.finest = finestShare_ * std::min(grid_.size, Tuning::kRoom * seen.rootMeanSquare);
+      made.finest = finestShare_ * std::min(grid_.size, tuning::IrradianceField::kRoom * seen.rootMeanSquare);
       made.smallObjectNear = grid_.side(key.level) > made.finest &&
                              asked.rays.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
     }
@@ -255,7 +254,8 @@ bool IrradianceField::Cache::isFinest(const SurfaceChart& chart, int level, cons
 int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
   for (; !isFinest(chart, level, asked); ++level) {
     const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
-    if (site.usable && !site.smallObjectNear && grid_.side(level) <= Tuning::kRoom * accuracy_ * site.reach)
+    if (site.usable && !site.smallObjectNear &&
+        grid_.side(level) <= tuning::IrradianceField::kRoom * accuracy_ * site.reach)
       break;
   }
   return level;
@@ -268,7 +268,7 @@ int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfaceP
   const int level =
       levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
   gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
-                             grid_.side(level) / Tuning::kFinestInGap);
+                             grid_.side(level) / tuning::IrradianceField::kFinestInGap);
   // If cells are wider than a gap is high, as below a narrow shelf, all their sites may lie outside of it.
   const int resolving = grid_.levelOf(gap);
   return resolving > level ? levelFrom(resolving, chart, asked) : level;
@@ -284,14 +284,15 @@ bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader
     if (chart->isCurved()) return false;
     chart = SurfaceChart::ofPlane(grid_, place);
   }
-  const double tolerance = accuracy_ / Tuning::kAllowed;
+  const double tolerance = accuracy_ / tuning::IrradianceField::kAllowed;
   light = {};
   double missing = 1, allowed = 1;
   int beyond = 0;
   double gap = 0;
   for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
-       ++level, allowed *= Tuning::kNoneAbove) {
-    const bool finest = grid_.side(level) <= Tuning::kFinestInGap * gap && isFinest(*chart, level, asked);
+       ++level, allowed *= tuning::IrradianceField::kNoneAbove) {
+    const bool finest =
+        grid_.side(level) <= tuning::IrradianceField::kFinestInGap * gap && isFinest(*chart, level, asked);
     beyond += finest;
     SitesAround around;
     if (!look(*chart, place, level, asked, around)) continue;

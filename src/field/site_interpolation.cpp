@@ -9,8 +9,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SiteInterpolation;
-
 // Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
 // functions.
 constexpr float kSlopes = .5F;
@@ -48,12 +46,14 @@ double SitesAround::roughness(double tolerance) const {
       const double before = luminanceOf(light[a]->perLength).dot(way);
       const double after = luminanceOf(light[b]->perLength).dot(way);
       const double step = luminance(light[b]->mean) - luminance(light[a]->mean);
-      const double chance = Tuning::kChance * std::hypot(light[a]->noise, light[b]->noise);
-      const double slopeChance =
-          Tuning::kChance * std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) * way.length();
+      const double chance = tuning::SiteInterpolation::kChance * std::hypot(light[a]->noise, light[b]->noise);
+      const double slopeChance = tuning::SiteInterpolation::kChance *
+                                 std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) *
+                                 way.length();
       error = std::max({error, (std::abs(after - before) - slopeChance) / kBySlopes,
-                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) / Tuning::kByStep,
-                        (std::abs(step) - chance) / Tuning::kByStep});
+                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) /
+                            tuning::SiteInterpolation::kByStep,
+                        (std::abs(step) - chance) / tuning::SiteInterpolation::kByStep});
     }
   return level > 0 ? error / (tolerance * level) : 0;
 }

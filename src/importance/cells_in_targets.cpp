@@ -7,8 +7,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::CellsInTargets;
-
 void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
   std::vector<double> factors(targets.all().size() + 1);
   for (const CellInTarget& cell : cells) factors[cell.fitted] += cell.solidAngle;
@@ -23,7 +21,7 @@ void scale(std::vector<CellInTarget>& cells, double total) {
   for (const CellInTarget& cell : cells)
     if (cell.enters) (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
   const double left = total - inside;
-  const bool byOutside = left > 0 && std::abs(left - outside) < Tuning::kMostScaled * outside;
+  const bool byOutside = left > 0 && std::abs(left - outside) < tuning::CellsInTargets::kMostScaled * outside;
   const double all = inside + outside;
   const double factor = byOutside ? left / outside : all > 0 ? total / all : 0;
   for (CellInTarget& cell : cells)

@@ -12,8 +12,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Contrasts;
-
 class Values {
  public:
   void add(double value) {
@@ -42,7 +40,7 @@ TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
   Random random(mixBits(scene.outermost().size()));
   Values photopic;
   Values values;
-  for (size_t k = 0; k < 2 * Tuning::kRays; ++k) {
+  for (size_t k = 0; k < 2 * tuning::Contrasts::kRays; ++k) {
     const auto surfaces = static_cast<double>(scene.outermost().size());
     const SurfaceId i(static_cast<size_t>(random.uniform() * surfaces));
     if (scene.surfaces[i].shape.as<Distant>()) continue;
@@ -95,7 +93,7 @@ Contrasts measureContrasts(const SphereTracing& tracing, std::span<const Special
     contrasts.baseError =
         measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
   if (alike.empty()) return contrasts;
-  const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike.size(), 2, Tuning::kRays);
+  const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike.size(), 2, tuning::Contrasts::kRays);
   for (const auto& [modifier, same] : alike) {
     const double deviation = measureDeviation(scene, same, rays, sources, request, tracer);
     for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});

@@ -16,17 +16,16 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::DiffuseGlances;
+enum class GlanceStream : uint64_t { glances = 0x7001, joins, single };
 
-enum class Stream : uint64_t { glances = 0x7001, joins, single };
-
-Random randomOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
+Random randomOf(const SetAtPoint& set, GlanceStream stream, uint64_t number = 0) {
   return Random(mixBits(mixBits(set.seed() + static_cast<uint64_t>(stream)) + number));
 }
 
 size_t glancesFor(const SphereOptions& options) {
   const auto base = static_cast<size_t>(options.baseDirections);
-  return std::min(Tuning::kPerDirection * base, std::max(base, Tuning::kMost));
+  return std::min(tuning::DiffuseGlances::kPerDirection * base,
+                  std::max(base, tuning::DiffuseGlances::kMost));
 }
 
 // OutdoorRadiance by a tracer.
@@ -45,11 +44,13 @@ size_t poolsFor(const SphereOptions& options) {
 // batch has enough paths to know its mean within 3% if the standard deviation of a path equals the mean.
 size_t pathsFor(const SphereOptions& options, bool daylit) {
   const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
-  const double finer = options.accuracy > 0 ? Tuning::kUsualAccuracy / options.accuracy : 0;
-  const double paths =
-      std::max(least, (daylit ? Tuning::kDaylitPaths : Tuning::kPathsPerDirection) * options.baseDirections) *
-      std::max(1., finer * finer);
-  return static_cast<size_t>(std::min(paths, static_cast<double>(Tuning::kMost / poolsFor(options))));
+  const double finer = options.accuracy > 0 ? tuning::DiffuseGlances::kUsualAccuracy / options.accuracy : 0;
+  const double paths = std::max(least, (daylit ? tuning::DiffuseGlances::kDaylitPaths
+                                               : tuning::DiffuseGlances::kPathsPerDirection) *
+                                           options.baseDirections) *
+                       std::max(1., finer * finer);
+  return static_cast<size_t>(
+      std::min(paths, static_cast<double>(tuning::DiffuseGlances::kMost / poolsFor(options))));
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ class DiffuseGlances::Joins {
  public:
   Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
       : vertices_(vertices), point_(point), density_(glances / (4 * kPi)) {
-    const double radius = Tuning::kJoinRadius * vertices.nearLight().meanLength;
+    const double radius = tuning::DiffuseGlances::kJoinRadius * vertices.nearLight().meanLength;
     radius2_ = radius * radius;
     const auto& visible = vertices.visible().all();
     shown_.resize(visible.size());
@@ -174,7 +175,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
               mixBits(options.rotation), tracers),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
       zones_(base.zones),
-      joins_(Tuning::kJoinsPerDirection * options.baseDirections) {
+      joins_(tuning::DiffuseGlances::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
   VoronoiWorkspace workspace;
   cellSolidAngles(glances_, workspace);
@@ -192,7 +193,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& trac
   Found found(zones_.get(), set.gaze());
   addJoins(set, joins, records, found);
 
-  Glancing glancing{both, randomOf(set, Stream::glances), &joins, nullptr, 4 * kPi / n};
+  Glancing glancing{both, randomOf(set, GlanceStream::glances), &joins, nullptr, 4 * kPi / n};
   const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
   glancing.scratch.outdoors = &outdoors;
@@ -222,7 +223,7 @@ VertexLight::Record& DiffuseGlances::recordFor(const V3d& direction, Records& re
 void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records& records,
                               Found& found) const {
   std::optional<Irradiance> last;
-  Random random = randomOf(set, Stream::joins);
+  Random random = randomOf(set, GlanceStream::joins);
   joins.draw(random, [&](const VisibleVertex& v, double share, const V3d& direction, double distance) {
     const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
     const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
@@ -260,7 +261,7 @@ bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces)
   Random random(seedOf(std::array{point.x, point.y, point.z}));
   FunctionScratch scratch;
   size_t past = 0;
-  for (size_t i = 0; i < Tuning::kWalks; ++i) {
+  for (size_t i = 0; i < tuning::DiffuseGlances::kWalks; ++i) {
     V3d origin = point, direction = uniformDirection(random);
     SurfaceId start;
     for (int hits = 0; hits <= bounces; ++hits) {
@@ -275,13 +276,14 @@ bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces)
       direction = diffuseDirection(at.normal, u1, u2);
     }
   }
-  return static_cast<double>(past) <= Tuning::kMostPast * static_cast<double>(Tuning::kWalks);
+  return static_cast<double>(past) <=
+         tuning::DiffuseGlances::kMostPast * static_cast<double>(tuning::DiffuseGlances::kWalks);
 }
 
 Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size_t number,
                                PathTracer& tracer) const {
   const std::shared_ptr<const VertexLight> own = light(set);
-  Glancing alone{*own, randomOf(set, Stream::single, number)};
+  Glancing alone{*own, randomOf(set, GlanceStream::single, number)};
   const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
   alone.scratch.outdoors = &outdoors;

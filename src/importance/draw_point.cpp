@@ -16,19 +16,19 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Pictures;
-
 // Two points on a ball may share light if each is near the plane of the other, within
 // tuning::Pictures::kNear. Their normals then differ by at most this cosine. Surfaces that meet in an edge
 // differ more.
-const float kSameNormal = 1 - 2 * Tuning::kNear * Tuning::kNear;
+const float kSameNormal = 1 - 2 * tuning::Pictures::kNear * tuning::Pictures::kNear;
 
-const Smoothing kOfIndirect{Tuning::kIndirectPasses, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal,
-                            Tuning::kNear};
-const Smoothing kOfGloss{Tuning::kFinePasses, 0, 0, Tuning::kSameGlossNormal, Tuning::kNear};
+const Smoothing kOfIndirect{tuning::Pictures::kIndirectPasses, tuning::Pictures::kFinePasses,
+                            tuning::Pictures::kSameLight, kSameNormal, tuning::Pictures::kNear};
+const Smoothing kOfGloss{tuning::Pictures::kFinePasses, 0, 0, tuning::Pictures::kSameGlossNormal,
+                         tuning::Pictures::kNear};
 // The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
 // they differ visibly from their neighbors.
-const Smoothing kOfDirect{1, Tuning::kFinePasses, Tuning::kSameLight, kSameNormal, Tuning::kNear};
+const Smoothing kOfDirect{1, tuning::Pictures::kFinePasses, tuning::Pictures::kSameLight, kSameNormal,
+                          tuning::Pictures::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -49,13 +49,13 @@ class PictureStreams {
   explicit PictureStreams(uint64_t seed) : seed_(seed) {}
   uint64_t smallSources() const { return mixBits(seed_ + 1); }
   uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
-  // beside: index in Tuning::kBeside.
+  // beside: index in tuning::Pictures::kBeside.
   uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
-  // repeat: below Tuning::kRepeats.
+  // repeat: below tuning::Pictures::kRepeats.
   uint64_t direct(size_t pixel, int repeat) const {
     return mixBits(middle(pixel) + 128 + static_cast<uint64_t>(repeat));
   }
-  // around: index in Tuning::kAround.
+  // around: index in tuning::Pictures::kAround.
   uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
 
  private:
@@ -80,8 +80,9 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   // Pixels are smaller near the rim and the poles.
   for (SeenSources::Image& image : small.images) {
     const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
-    const double pixels = there > 0 ? image.solidAngle / there : Tuning::kSmallest;
-    image.rays = pixels < Tuning::kSmallest ? Tuning::kSmallest * std::max(1., pixels) : 0;
+    const double pixels = there > 0 ? image.solidAngle / there : tuning::Pictures::kSmallest;
+    image.rays =
+        pixels < tuning::Pictures::kSmallest ? tuning::Pictures::kSmallest * std::max(1., pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
@@ -169,7 +170,7 @@ class RaysOfPixel {
   }
   bool differ() const {
     const V3d range = brightest_ - darkest_;
-    return std::max({range.x, range.y, range.z}) > Tuning::kVisible;
+    return std::max({range.x, range.y, range.z}) > tuning::Pictures::kVisible;
   }
   // Empty without rays.
   std::optional<V3d> mean() const { return count_ > 0 ? std::optional(sum_ / count_) : std::nullopt; }
@@ -201,7 +202,8 @@ class Painter {
         tracer_(point, transport),
         small_(smallSources(tracer_.paths(), map, sources, streams_.smallSources())),
         sampling_(transport.prepared().options().sampling),
-        sharing_(lampsAlone(transport.prepared()) ? Tuning::kSharingByLamps : Tuning::kSharing) {}
+        sharing_(lampsAlone(transport.prepared()) ? tuning::Pictures::kSharingByLamps
+                                                  : tuning::Pictures::kSharing) {}
 
   Raster draw(bool forScreen);
 
@@ -250,8 +252,8 @@ std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;
   auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
-  for (size_t i = 0; !sample && i < Tuning::kBeside.size(); ++i)
-    sample = look(column + .5 + Tuning::kBeside[i][0], row + .5 + Tuning::kBeside[i][1],
+  for (size_t i = 0; !sample && i < tuning::Pictures::kBeside.size(); ++i)
+    sample = look(column + .5 + tuning::Pictures::kBeside[i][0], row + .5 + tuning::Pictures::kBeside[i][1],
                   streams_.aside(pixel, i), parts);
   return sample;
 }
@@ -266,8 +268,8 @@ bool Painter::gathers(int column, int row) const {
 Pixels Painter::tracePixels() {
   Pixels pixels(map_);
   int traced = 0;
-  for (int sweep = 0; sweep < Tuning::kSweeps; ++sweep)
-    for (int row = sweep; row < map_.height(); row += Tuning::kSweeps) {
+  for (int sweep = 0; sweep < tuning::Pictures::kSweeps; ++sweep)
+    for (int row = sweep; row < map_.height(); row += tuning::Pictures::kSweeps) {
       report(kTracingShare * traced++ / map_.height());
       for (int column = 0; column < map_.width(); ++column) {
         const bool all = gathers(column, row);
@@ -304,7 +306,8 @@ std::vector<bool> noisyShadows(const Pixels& pixels) {
       return;
     const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
                      b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
-    if (apart.length() > Tuning::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
+    if (apart.length() > tuning::Pictures::kSameLight * (a + b).length() / 2)
+      marked[here] = marked[there] = true;
   };
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
@@ -328,7 +331,7 @@ void Painter::repeatDirect(Pixels& pixels) {
       if (!marked[pixel]) continue;
       V3d sum(pixels.middles[pixel].direct);
       int count = 1;
-      for (int repeat = 0; repeat < Tuning::kRepeats; ++repeat) {
+      for (int repeat = 0; repeat < tuning::Pictures::kRepeats; ++repeat) {
         const auto sample =
             look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
         if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
@@ -345,7 +348,8 @@ std::vector<bool> Painter::uneven(const Raster& raster, double exposure) const {
   const auto differ = [&](size_t a, size_t b) {
     const V3d of = exposure * valueAt(raster, a), other = exposure * valueAt(raster, b);
     for (int c = 0; c < 3; ++c)
-      if (std::abs(sRgb(std::max(0., of[c])) - sRgb(std::max(0., other[c]))) > Tuning::kVisible) return true;
+      if (std::abs(sRgb(std::max(0., of[c])) - sRgb(std::max(0., other[c]))) > tuning::Pictures::kVisible)
+        return true;
     return false;
   };
   for (int row = 0; row < map_.height(); ++row)
@@ -383,7 +387,8 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
 // Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels. Empty
 // outside the rim, and where the ray hits a small source.
 std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
-  const double x = column + .5 + Tuning::kAround[place][0], y = row + .5 + Tuning::kAround[place][1];
+  const double x = column + .5 + tuning::Pictures::kAround[place][0],
+               y = row + .5 + tuning::Pictures::kAround[place][1];
   const uint64_t seed = streams_.around(at(column, row), place);
   auto sample = look(x, y, seed, PixelParts::restAlone);
   if (sample && sample->seen.material != kNone) {
@@ -396,8 +401,8 @@ std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, si
 V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
   const size_t pixel = at(column, row);
   if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
-  for (size_t place = 0; place < Tuning::kAround.size(); ++place) {
-    if (place == Tuning::kCorners && !rays.differ()) break;
+  for (size_t place = 0; place < tuning::Pictures::kAround.size(); ++place) {
+    if (place == tuning::Pictures::kCorners && !rays.differ()) break;
     if (const auto value = around(pixels, column, row, place)) rays.add(*value);
   }
   return rays.mean().value_or(pixels.value(pixel));

@@ -9,8 +9,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::ErrorEstimate;
-
 // The part of a direction's radiance that glances do not estimate.
 Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
 
@@ -105,7 +103,7 @@ Variance varianceWith(const SharedError& error, Variance own, const SpectralSamp
   own += sharedVariance(error, sampling);
   // The relative standard deviation of a variance estimated from n independent sums is (2 / (n - 1))^1/2.
   const auto n = static_cast<double>(error.batches.size());
-  const double least = n < 2 ? 0 : Tuning::kLeastShared * std::sqrt(2 / (n - 1));
+  const double least = n < 2 ? 0 : tuning::ErrorEstimate::kLeastShared * std::sqrt(2 / (n - 1));
   const auto larger = [&](double all, double part) { return std::max(all, least * part); };
   return {combined(own.channels, spread.channels, larger), larger(own.brightness, spread.brightness)};
 }
@@ -127,10 +125,10 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
   for (size_t i = 0; i < samples.size(); ++i) {
     const double m = once.neighbours[i];
     if (m == 0) continue;
-    const bool second = m >= Tuning::kFewestAround, apart = samples[i].region != 0;
+    const bool second = m >= tuning::ErrorEstimate::kFewestAround, apart = samples[i].region != 0;
     const Variance part =
         Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
-        ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : Tuning::kEvenSet));
+        ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : tuning::ErrorEstimate::kEvenSet));
     sum += part;
     if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
   }
@@ -155,7 +153,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   // edge contribute to the variance: about n^1/2 of n cells. For an object smaller than the spacing of
   // directions, there is no reduction. Therefore n is the effective number of directions that sharing()
   // returns, which is small if few directions find the object.
-  const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / Tuning::kEvenRun);
+  const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / tuning::ErrorEstimate::kEvenRun);
   for (const DirectionSample& s : samples)
     if (to)
       to->add(s.direction, s.solidAngle,
@@ -199,7 +197,8 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
   }
   Variance sum;
   for (const auto& [region, here] : found) {
-    const Variance unseen = Variance::of(here.sum * (Tuning::kUnseen / (here.count + 1)), sampling);
+    const Variance unseen =
+        Variance::of(here.sum * (tuning::ErrorEstimate::kUnseen / (here.count + 1)), sampling);
     sum += unseen;
     if (to) to->add(here.direction, 0, unseen);
   }
@@ -215,7 +214,7 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
   for (const auto& s : samples) {
     const double clear = static_cast<double>(s.clear) / s.aimed;
     edges += Variance::of(irradianceFrom(s.direction.value, s.part), sampling) *
-             (Tuning::kEvenParts * clear * (1 - clear) / s.aimed);
+             (tuning::ErrorEstimate::kEvenParts * clear * (1 - clear) / s.aimed);
   }
   const size_t columns = static_cast<size_t>(std::count_if(
       samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
@@ -233,8 +232,8 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
     if (samples[i].row == samples[i - 1].row) add(i, i - 1);
   for (size_t i = columns; i < samples.size(); ++i) add(i, i - columns);
   if (pairs > 0)
-    edges +=
-        sum * (Tuning::kEvenParts * .5 * static_cast<double>(samples.size()) / static_cast<double>(pairs));
+    edges += sum * (tuning::ErrorEstimate::kEvenParts * .5 * static_cast<double>(samples.size()) /
+                    static_cast<double>(pairs));
   if (to)
     for (const auto& s : samples)
       to->add(s.direction.direction, 0, edges * (1 / static_cast<double>(samples.size())));

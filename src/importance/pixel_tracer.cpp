@@ -10,17 +10,16 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Pictures;
-
 static_assert(kMaterialTypes == 19, "Do neighboring pixels share its light?");
 // Whether gloss changes little between neighboring pixels: its lobe is wider than a few pixels, and neither a
 // pattern nor a texture varies it.
 bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   if (hit.perturbation != V3d(0, 0, 0)) return false;
   if (const auto* opaque = std::get_if<Opaque>(&material))
-    return opaque->roughness >= Tuning::kLeastRoughness && (!opaque->metal || hit.pattern == Color(1, 1, 1));
+    return opaque->roughness >= tuning::Pictures::kLeastRoughness &&
+           (!opaque->metal || hit.pattern == Color(1, 1, 1));
   const auto* trans = std::get_if<Trans>(&material);
-  return trans && trans->roughness >= Tuning::kLeastRoughness && hit.pattern == Color(1, 1, 1);
+  return trans && trans->roughness >= tuning::Pictures::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
 // Whether the light of sources changes little between neighboring pixels except at shadows. Any finer

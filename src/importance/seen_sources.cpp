@@ -15,7 +15,6 @@ namespace rsphere {
 namespace {
 
 using std::numbers::pi;
-using Tuning = tuning::SeenSources;
 
 // The sharp reflectance of a plane surface at this cosine of incidence. It ignores the color of metals, and
 // includes both boundaries of panes. If it is 0 at one angle, it is 0 at all angles.
@@ -167,7 +166,8 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     image.region = silhouetteOf(surface.shape, scene.vertices, point);
     setExtent(image, point);
     if (!(image.solidAngle > 0)) continue;
-    image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle, Tuning::kByLight);
+    image.rays = std::pow(brightness(sourceRadiance(scene, surface)) * image.solidAngle,
+                          tuning::SeenSources::kByLight);
     images.push_back(std::move(image));
   }
   const size_t straight = images.size();
@@ -177,17 +177,18 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   for (const Image& image : images) sum += image.rays;
   for (size_t i = 0; i < images.size(); ++i) {
     Image& image = images[i];
-    const double enough =
-        isSensor(prepared_, image.source)
-            ? 1
-            : std::max(
-                  {Tuning::kUsualRays, image.solidAngle / (Tuning::kSmallestPart * Tuning::kSmallestPart),
-                   Tuning::kSmallShare * static_cast<double>(most) / static_cast<double>(images.size())});
+    const double enough = isSensor(prepared_, image.source)
+                              ? 1
+                              : std::max({tuning::SeenSources::kUsualRays,
+                                          image.solidAngle / (tuning::SeenSources::kSmallestPart *
+                                                              tuning::SeenSources::kSmallestPart),
+                                          tuning::SeenSources::kSmallShare * static_cast<double>(most) /
+                                              static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
     if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
   images.erase(std::remove_if(images.begin() + straight, images.end(),
-                              [](const Image& i) { return i.rays < Tuning::kSmallShare; }),
+                              [](const Image& i) { return i.rays < tuning::SeenSources::kSmallShare; }),
                images.end());
   return images;
 }
@@ -245,7 +246,7 @@ void SeenSources::addMirrored(const V3d& point, std::vector<Image>& images) cons
       const double cosine = std::abs(plane.normal.dot(directionIn(image, behind, .5, .5)));
       image.rays = std::pow(
           brightness(sourceRadiance(scene, surface)) * image.solidAngle * sharpReflectance(material, cosine),
-          Tuning::kByLight);
+          tuning::SeenSources::kByLight);
       images.push_back(std::move(image));
     }
   }
@@ -311,11 +312,11 @@ double SeenSources::filledShare(const Image& image, const V3d& eye, Random& rand
   const double shift1 = random.uniform(), shift2 = random.uniform();
   size_t met = 0;
   ShapeHit on;
-  for (size_t i = 0; i < Tuning::kShareTries; ++i) {
+  for (size_t i = 0; i < tuning::SeenSources::kShareTries; ++i) {
     const Imath::V2d u = evenly(i, shift1, shift2);
     met += hits(prepared_.scene(), shape, eye, image.region.sample(u.x, u.y), on) && on.cosine > 0;
   }
-  return static_cast<double>(met) / Tuning::kShareTries;
+  return static_cast<double>(met) / tuning::SeenSources::kShareTries;
 }
 
 std::optional<SeenSources::Sample> SeenSources::sampleMirrored(const PathsFrom& paths, const Image& image,
@@ -346,10 +347,12 @@ std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& 
   s.row = cell.row;
   s.aimed = s.clear = 0;
   ShapeHit on, chosen{0, V3d(0, 0, 0), 0};
-  for (size_t i = 0; i < Tuning::kShadowsAlong; ++i)
-    for (size_t k = 0; k < Tuning::kShadowsAlong; ++k) {
-      const double u = (cell.row + (i + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.rows,
-                   v = (cell.column + (k + cell.random.uniform()) / Tuning::kShadowsAlong) / cell.columns;
+  for (size_t i = 0; i < tuning::SeenSources::kShadowsAlong; ++i)
+    for (size_t k = 0; k < tuning::SeenSources::kShadowsAlong; ++k) {
+      const double u = (cell.row + (i + cell.random.uniform()) / tuning::SeenSources::kShadowsAlong) /
+                       cell.rows,
+                   v = (cell.column + (k + cell.random.uniform()) / tuning::SeenSources::kShadowsAlong) /
+                       cell.columns;
       const V3d direction = directionIn(image, point, u, v);
       const double lot = cell.random.uniform();
       if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;

@@ -13,7 +13,6 @@ namespace rsphere {
 namespace {
 
 using std::numbers::pi;
-using Tuning = tuning::Silhouettes;
 
 // Rounding error of unit vectors and their products, a few ulp of 1. Directions on the edge of a region are
 // inside.
@@ -43,9 +42,9 @@ double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>
 void addCircle(std::vector<V3d>& corners, const V3d& center, const V3d& axis, double radius) {
   V3d x, y;
   frame(axis, x, y);
-  const double around = radius / std::cos(pi / Tuning::kCorners) * (1 + kRounding);
-  for (int i = 0; i < Tuning::kCorners; ++i) {
-    const double angle = 2 * pi * i / Tuning::kCorners;
+  const double around = radius / std::cos(pi / tuning::Silhouettes::kCorners) * (1 + kRounding);
+  for (int i = 0; i < tuning::Silhouettes::kCorners; ++i) {
+    const double angle = 2 * pi * i / tuning::Silhouettes::kCorners;
     corners.push_back(center + around * (std::cos(angle) * x + std::sin(angle) * y));
   }
 }
@@ -151,7 +150,7 @@ bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
   for (size_t i = 0; i < points.size(); ++i) {
     const V3d towards = points[i] - point;
     const double depth = towards.dot(middle);
-    if (!(depth > std::cos(Tuning::kWidestHull) * towards.length())) return false;
+    if (!(depth > std::cos(tuning::Silhouettes::kWidestHull) * towards.length())) return false;
     seen.push_back({towards.dot(x) / depth, towards.dot(y) / depth, i});
   }
   std::sort(seen.begin(), seen.end(),

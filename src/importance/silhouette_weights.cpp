@@ -15,7 +15,6 @@ namespace rsphere {
 namespace {
 
 using std::numbers::pi;
-using Tuning = tuning::SilhouetteWeights;
 
 // Streams of random numbers in a set, named after their uses. They are separate, so that drawing more numbers
 // in one leaves the others unchanged.
@@ -46,7 +45,7 @@ ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
 
 // beside: number of directions that -Sx allows in addition to the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
-  const size_t usual = std::max(base / Tuning::kBaseDirectionsPerRayToImages,
+  const size_t usual = std::max(base / tuning::SilhouetteWeights::kBaseDirectionsPerRayToImages,
                                 static_cast<size_t>(tuning::SeenSources::kUsualRays));
   return glances ? std::max(usual, std::min(base, beside / 2)) : usual;
 }
@@ -55,8 +54,8 @@ size_t raysToImages(size_t base, size_t beside, bool glances) {
 std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& options) {
   if (!prepared.lights().distant().empty()) return {};
   const auto count = static_cast<size_t>(options.baseDirections);
-  const size_t glances =
-      std::min(Tuning::kGlancesPerDirection * count, std::max(count, tuning::DiffuseGlances::kMost));
+  const size_t glances = std::min(tuning::SilhouetteWeights::kGlancesPerDirection * count,
+                                  std::max(count, tuning::DiffuseGlances::kMost));
   return rotatedDirections(baseDirections(glances), options.rotation);
 }
 

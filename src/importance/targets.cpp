@@ -12,8 +12,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Targets;
-
 constexpr double kFullSphere = 4 * std::numbers::pi;  // sr
 
 // Boxes thinner than this share of their diagonal are flat; the rest is rounding.
@@ -67,7 +65,7 @@ void chooseFitted(std::vector<Target>& targets, double baseDensity) {
     return target.silhouette.regionSolidAngle() * (baseDensity + target.density);
   };
   for (Target& target : targets)
-    if (expected(target) > Tuning::kFewestFitted) large.push_back(&target);
+    if (expected(target) > tuning::Targets::kFewestFitted) large.push_back(&target);
   std::ranges::stable_sort(large,
                            [&](const Target* a, const Target* b) { return expected(*a) > expected(*b); });
   if (large.size() > tuning::Caps::kAsked) large.resize(tuning::Caps::kAsked);
@@ -148,9 +146,9 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     if (deviation > usual)
       density = usual > 0 ? (deviation / usual - 1) * baseDensity * densityFactor_
                           : static_cast<double>(most) / solidAngle;
-    if (opening * solidAngle > Tuning::kLeastOpening * kFullSphere * meanBrightness)
+    if (opening * solidAngle > tuning::Targets::kLeastOpening * kFullSphere * meanBrightness)
       density = std::max(density, tuning::Caps::kProbes / solidAngle - baseDensity);
-    if (!(density > 0) && solidAngle * baseDensity < Tuning::kFewestFitted) return;
+    if (!(density > 0) && solidAngle * baseDensity < tuning::Targets::kFewestFitted) return;
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
@@ -159,16 +157,16 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     add(silhouetteOf(prepared_.scene(), c.object, point), c.deviation, false, radiances_[i]);
   }
   if (usual > 0)
-    for (Glint& g : glints_.find(point, Tuning::kLeastGlint * kFullSphere * usual * usual))
-      add(std::move(g.region), Tuning::kPartlyLit * g.brightness, g.continues);
+    for (Glint& g : glints_.find(point, tuning::Targets::kLeastGlint * kFullSphere * usual * usual))
+      add(std::move(g.region), tuning::Targets::kPartlyLit * g.brightness, g.continues);
   for (const auto& [place, radiance] : openings_) {
     if (!((point - place.corner).dot(place.normal) > 0)) continue;
     const std::array corners{place.at(0, 0), place.at(1, 0), place.at(1, 1), place.at(0, 1)};
-    add(hullOf(corners, point), Tuning::kPartlyLit * radiance, false, radiance);
+    add(hullOf(corners, point), tuning::Targets::kPartlyLit * radiance, false, radiance);
   }
   for (const BrightSpots::Sunlit& spot : sunlit_)
-    if (Tuning::kPartlyLit * spot.radiance > usual && isVisible(prepared_.tracer(), spot, point))
-      add(hullOf(cornersOf(spot.box), point), Tuning::kPartlyLit * spot.radiance, false);
+    if (tuning::Targets::kPartlyLit * spot.radiance > usual && isVisible(prepared_.tracer(), spot, point))
+      add(hullOf(cornersOf(spot.box), point), tuning::Targets::kPartlyLit * spot.radiance, false);
   if (sum > static_cast<double>(most)) {
     const double scale = static_cast<double>(most) / sum;
     for (Target& target : targets) {

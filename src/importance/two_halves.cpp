@@ -8,8 +8,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Stopping;
-
 constexpr double kMostSets = 1e9;  // more than -Sx allows
 
 }  // namespace
@@ -17,7 +15,7 @@ constexpr double kMostSets = 1e9;  // more than -Sx allows
 size_t TwoHalves::setsFor(const Half& other) const {
   const double count = static_cast<double>(other.sets), variance = other.variance / count;
   if (!(variance > 0)) return 1;
-  const double wanted = Tuning::kMargin * accuracy_ * other.total / count;
+  const double wanted = tuning::Stopping::kMargin * accuracy_ * other.total / count;
   const double sets = wanted > 0 ? variance / (2 * wanted * wanted) : kMostSets;
   return static_cast<size_t>(std::clamp(std::ceil(sets), 1., kMostSets));
 }
@@ -30,8 +28,8 @@ std::optional<size_t> TwoHalves::next() const {
   const bool wantsA = a.sets < setsFor(b), wantsB = b.sets < setsFor(a);
   if (!wantsA && !wantsB && isReached()) return std::nullopt;
   if (a.sets + b.sets >= tuning::Dark::kSets && average() < dark_) return std::nullopt;
-  if (a.sets >= Tuning::kMostRatio * b.sets) return 1;
-  if (b.sets >= Tuning::kMostRatio * a.sets) return 0;
+  if (a.sets >= tuning::Stopping::kMostRatio * b.sets) return 1;
+  if (b.sets >= tuning::Stopping::kMostRatio * a.sets) return 0;
   if (wantsA != wantsB) return wantsA ? 0 : 1;
   return a.sets <= b.sets ? 0 : 1;
 }

@@ -14,8 +14,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SourceParts;
-
 constexpr int kMostParts = 64;  // per source. RADIANCE has the same limit, and users choose -ds for it
 // Factor on a length after it has been halved this number of times. The last entry gives kMostParts parts.
 constexpr std::array<double, 7> kHalved = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
@@ -73,7 +71,7 @@ std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const S
 // have unbounded variance. towards: the vector from the point to the part's middle.
 bool isNear(const PlaneLight& plane, const SourcePart& part, const V3d& towards) {
   const double width = 2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
-  return width * width > Tuning::kNear * Tuning::kNear * towards.length2();
+  return width * width > tuning::SourceParts::kNear * tuning::SourceParts::kNear * towards.length2();
 }
 
 // Halves a part repeatedly until its half-extents u and v are at most `allowed` times its distance, or until

@@ -6,9 +6,10 @@
 namespace rsphere {
 namespace {
 
-constexpr double kRounding = 1e-12;  // tolerance for heights, relative to the largest coordinate; 1e4 epsilon
-constexpr double kMargin = 1e-7;     // relative to the largest coordinate: see penumbra.h
-constexpr double kFlat = 1e-6;  // if the sine between an edge and a corner is smaller, they define no plane
+constexpr double kHeightRounding =
+    1e-12;                        // tolerance for heights, relative to the largest coordinate; 1e4 epsilon
+constexpr double kMargin = 1e-7;  // relative to the largest coordinate: see penumbra.h
+constexpr double kFlat = 1e-6;    // if the sine between an edge and a corner is smaller, they define no plane
 
 double largest(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -61,7 +62,7 @@ double marginOf(double coordinate, const HalfSpace& bound) {
 }  // namespace
 
 void addPenumbra(std::span<const V3d> from, std::span<const V3d> opening, std::vector<HalfSpace>& bounds) {
-  const double rounding = kRounding * std::max(largest(from), largest(opening));
+  const double rounding = kHeightRounding * std::max(largest(from), largest(opening));
   const auto sideOfOpening = [&](const HalfSpace& plane) {
     const int side = sideOf(opening, plane, rounding);
     return side != 0 && sideOf(from, {-plane.inward, -plane.offset}, rounding) == side ? side : 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
 // Bounds of relays are enlarged by this fraction of their distance so that rounding cannot exclude a relay.
-constexpr double kRounding = 1e-9;
+constexpr double kRelayRounding = 1e-9;
 // For light that has passed more relays than this, only its source and this number of the last relays bound
 // it, because storing all n relays of each image in a chain of n would take memory of order n^2. The bounds
 // become wider, which affects memory and time but no answer. Two facing mirrors with -dr 2000 take 19 MB.
@@ -359,12 +359,12 @@ class Images {
     const auto [away, offset] = sideLit(index);
     const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
     const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
-    const double rounding = kRounding * (middle.length() + half.length() + std::abs(offset));
+    const double rounding = kRelayRounding * (middle.length() + half.length() + std::abs(offset));
     if (middle.dot(away) + half.dot(span) - offset + rounding <= kTiny) return false;
     Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
     double sizes = ball.center.length() + ball.radius;
     for (const Passage& passage : way.passages) sizes += passage.ball.center.length();
-    ball.radius += kRounding * sizes;
+    ball.radius += kRelayRounding * sizes;
     return meetsBeams(source, way, ball);
   }
 

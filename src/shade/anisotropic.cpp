@@ -12,8 +12,7 @@ constexpr double kLeastCosine = .001;
 
 // The Fresnel increase of reflection for a polished WGMDfunc: Ward's exponential for an index of about 1.5.
 // The constant is RADIANCE's; it leaves an increase of .0008 at normal incidence.
-double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - .00202943064; }
-constexpr double kFresnelSpecularity = .017999;
+double fresnelRiseOfFunction(double cosine) { return std::exp(-5.85 * cosine) - .00202943064; }
 
 double schlick(double cosine) {
   const double c = 1 - cosine, c2 = c * c;
@@ -165,7 +164,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
     double mirrorCosine = 0;
     s.polished = true;
     s.polishedNormal = normalOf(reflected.at, mirrorCosine);
-    const double rise = fresnelRise(mirrorCosine);
+    const double rise = fresnelRiseOfFunction(mirrorCosine);
     s.reflected.share += rise * (Color(1, 1, 1) - s.reflected.share);
     s.reflection.share *= 1 - rise;
     s.transmission.share *= 1 - rise;
@@ -209,7 +208,7 @@ AnisotropicScattering scatter(const WgmdFunction& m, const WgmdComponent& reflec
 Coefficient directCoefficient(const AnisotropicScattering& s, const V3d& direction, const V3d& toSource,
                               double solidAngle, double sourceJitter) {
   Coefficient sum;
-  const double enters = s.polished ? 1 - fresnelRise(std::abs(s.polishedNormal.dot(toSource))) : 1;
+  const double enters = s.polished ? 1 - fresnelRiseOfFunction(std::abs(s.polishedNormal.dot(toSource))) : 1;
   const double before = s.reflection.normal.dot(toSource), beyond = -s.transmission.normal.dot(toSource);
   if (before > kNegligible) sum.color += s.reflection.share * (enters * before * solidAngle / kPi);
   if (beyond > kNegligible) sum.color += s.transmission.share * (enters * beyond * solidAngle / kPi);

@@ -9,10 +9,8 @@ namespace rsphere {
 namespace {
 
 // Ward's exponential approximation of Fresnel's equations for a polished surface with a refractive index of
-// about 1.5. The constant makes it 0 at normal incidence. It applies to specularities of at least
-// kFresnelSpecularity.
+// about 1.5. The constant makes it 0 at normal incidence.
 double fresnelRise(double cosine) { return std::exp(-5.85 * cosine) - 0.00287989916; }
-constexpr double kFresnelSpecularity = 0.017999;
 
 V3d mirrored(const V3d& direction, const V3d& normal, double cosine) {
   return direction + 2 * cosine * normal;

@@ -16,6 +16,10 @@
 
 namespace rsphere {
 
+// Polished surfaces of at least this specularity reflect more at grazing angles (Ward's approximation of
+// Fresnel's equations); those below keep their specularity. RADIANCE's figure.
+inline constexpr double kFresnelSpecularity = .017999;
+
 // A hit, as seen by a material. All directions are unit vectors in world coordinates.
 struct Interaction {
   V3d direction{0, 0, -1};    // of the ray

@@ -14,8 +14,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::BrightSpots;
-
 // Lower bound on the squared sine of a spot's angular radius. In single precision, smaller spots cannot be
 // distinguished from points.
 constexpr float kNarrowest = 1e-6f;
@@ -137,8 +135,8 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
     const V3d direction = -distant->direction;
     const double all = areaTowards(openings.all(), direction);
     if (!(all > 0)) continue;
-    const double each = radiance * distant->solidAngle * all / Tuning::kParticles;
-    for (int i = 0; i < Tuning::kParticles; ++i) {
+    const double each = radiance * distant->solidAngle * all / tuning::BrightSpots::kParticles;
+    for (int i = 0; i < tuning::BrightSpots::kParticles; ++i) {
       const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
       const V3d in = pointTowards(openings.all(), direction, u1, u2, u3);
       if (tracer.nearest(in, -direction).surface != kNone) continue;
@@ -152,7 +150,7 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
 std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, const Tracer& tracer,
                                                           const LightSources& lights) const {
   std::vector<Particle> found;
-  sendParticles(scene, tracer, lights, Tuning::kParticles,
+  sendParticles(scene, tracer, lights, tuning::BrightSpots::kParticles,
                 [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
                   if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
                     found.push_back(*particle);
@@ -171,13 +169,14 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     if (free.size() >= kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      for (const Node& node :
-           find(inside, kRoomSurface * *middle * *middle, tuning::Caps::kAimed / 2, Tuning::kBrighter / 2, 1))
+      for (const Node& node : find(inside, kRoomSurface * *middle * *middle, tuning::Caps::kAimed / 2,
+                                   tuning::BrightSpots::kBrighter / 2, 1))
         sunlit_.push_back(node.sunlit());
     }
   }
   std::vector<Particle> everywhere = particles(scene, tracer, lights);
-  find(everywhere, scene.area(), tuning::Caps::kAimed, Tuning::kBrighter, Tuning::kBrighter);
+  find(everywhere, scene.area(), tuning::Caps::kAimed, tuning::BrightSpots::kBrighter,
+       tuning::BrightSpots::kBrighter);
 }
 
 std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,

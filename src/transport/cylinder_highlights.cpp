@@ -9,8 +9,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Highlights;
-
 // Places along a cylinder from which shadow rays are sent to a source, as fractions of its length.
 constexpr double kPlaces[] = {.5, .1, .9};
 
@@ -93,7 +91,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
 // from unrolling the cylinder, which makes the path straight.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
-  const double leastOfOne = least / Tuning::kLeastOfFew;
+  const double leastOfOne = least / tuning::Highlights::kLeastOfFew;
   double variance = 0;
   for (const uint32_t number : near_.at(point)) {
     const Cylinder& cylinder = cylinders_[number];
@@ -111,7 +109,7 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const SourcePart& part = p.lighting.part;
       const V3d to = part.distant ? part.center : part.center - shape.base, side = across(shape, to);
       const double beside = side.length();
-      if (!(beside > (part.distant ? Tuning::kEdgeOn : Highlight::kApart * radius))) continue;
+      if (!(beside > (part.distant ? tuning::Highlights::kEdgeOn : Highlight::kApart * radius))) continue;
       const V3d normal = mirroringNormal({.center = V3d(0, 0, 0), .radius = radius}, at,
                                          part.distant ? side / beside : side, part.distant);
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();

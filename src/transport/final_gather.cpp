@@ -12,8 +12,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Interpolation;
-
 // The parent of the rays of a gather: a fictitious ray that has hit the site.
 struct Root {
   RayQuery query;
@@ -80,7 +78,7 @@ double TracedFieldRays::clearance(const GatherSite& site, double farthest) {
 Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
   // Directions distributed by projected solid angle, in the frame of the site.
   static const auto directions = [] {
-    const HemisphereCells cells(Tuning::kReachRays);
+    const HemisphereCells cells(tuning::Interpolation::kReachRays);
     std::vector<V3d> of(cells.count());
     for (int i = 0; i < cells.count(); ++i)
       of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));

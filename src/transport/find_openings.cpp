@@ -17,8 +17,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Openings;
-
 // Whether panes close most of a hole. Tests five points: the middle, and one near each corner.
 bool hasPane(const PreparedScene& prepared, const Rectangle& hole) {
   const double reach = .5 * std::min(hole.width, hole.height);
@@ -39,10 +37,11 @@ struct Seen {
 
 // Whether `one` is the bright side of an opening.
 bool showsMoreSky(const Seen& one, const Seen& other) {
-  return one.sky > std::max(Tuning::kMoreSky * other.sky, Tuning::kLeastSky * one.all);
+  return one.sky > std::max(tuning::Openings::kMoreSky * other.sky, tuning::Openings::kLeastSky * one.all);
 }
 bool isBrighter(const Seen& one, const Seen& other) {
-  return showsMoreSky(one, other) || (!showsMoreSky(other, one) && one.all > Tuning::kBrighter * other.all);
+  return showsMoreSky(one, other) ||
+         (!showsMoreSky(other, one) && one.all > tuning::Openings::kBrighter * other.all);
 }
 
 // Samples the light and the distances on both sides of panes and holes.
@@ -136,9 +135,9 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
 // same opening.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
-    return std::abs(o.normal.dot(hole.normal)) > Tuning::kParallel &&
+    return std::abs(o.normal.dot(hole.normal)) > tuning::Openings::kParallel &&
            (o.at(.5, .5) - hole.at(.5, .5)).length() <
-               Tuning::kSameHole * std::min({o.width, o.height, hole.width, hole.height});
+               tuning::Openings::kSameHole * std::min({o.width, o.height, hole.width, hole.height});
   });
 }
 
@@ -161,7 +160,8 @@ void merge(std::vector<Opening>& panes) {
           high[k] = std::max(high[k], at[k]);
         }
       }
-      together = together && (high[0] - low[0]) * (high[1] - low[1]) * Tuning::kFilled < a.filled + b.filled;
+      together = together &&
+                 (high[0] - low[0]) * (high[1] - low[1]) * tuning::Openings::kFilled < a.filled + b.filled;
       if (!together) {
         ++j;
         continue;
@@ -179,8 +179,8 @@ void merge(std::vector<Opening>& panes) {
 // Panes and holes that may be openings, the largest first. face: area of the largest face of the scene's box
 // (square world units).
 std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
-  std::vector<Opening> asked = panesOf(prepared, Tuning::kLeastArea * face);
-  const std::vector<Opening> doors = doorsOf(prepared, Tuning::kLeastArea * face);
+  std::vector<Opening> asked = panesOf(prepared, tuning::Openings::kLeastArea * face);
+  const std::vector<Opening> doors = doorsOf(prepared, tuning::Openings::kLeastArea * face);
   asked.insert(asked.end(), doors.begin(), doors.end());
   std::stable_sort(asked.begin(), asked.end(),
                    [](const Opening& a, const Opening& b) { return a.area() > b.area(); });

@@ -12,8 +12,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::GatherDirections;
-
 // Caps on the fractions of aimed directions. They limit the weight of the other directions to twice their
 // weight without aiming (with highlights, a third more than that), and thus the growth of their variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
@@ -24,7 +22,7 @@ double usualRadiance(const Aims& aims) {
   if (!aims.openings) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
   const double least =
       aims.spots ? std::min(aims.openings->inside(), aims.spots->usual()) : aims.openings->inside();
-  return Tuning::kFartherInside * least;
+  return tuning::GatherDirections::kFartherInside * least;
 }
 
 }  // namespace
@@ -50,8 +48,9 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   // Unaimed directions hit openings too, in proportion to the form factor. If they alone reach the cap on the
   // fraction of directions towards openings, none is aimed.
   const double unseen = std::max(0., 1 - openings_.aim.seen / kMostToOpenings);
-  openings_.share = std::min(kMostToOpenings, Tuning::kAimed * openings_.aim.mean / all * unseen);
-  spots_.share = Tuning::kAimed * spots_.aim.mean / all;
+  openings_.share =
+      std::min(kMostToOpenings, tuning::GatherDirections::kAimed * openings_.aim.mean / all * unseen);
+  spots_.share = tuning::GatherDirections::kAimed * spots_.aim.mean / all;
 }
 
 // The density of the mixture in a direction, relative to sampling by projected solid angle.

@@ -11,8 +11,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::Holes;
-
 // The polygons in one plane, regardless of the side they face, the largest first.
 struct Wall {
   std::vector<const Polygon*> polygons;
@@ -27,8 +25,9 @@ PlaneKey planeOf(const Polygon& polygon, const V3d& fromOrigin, double size) {
   const double first = std::abs(normal.x) > .5 ? normal.x : std::abs(normal.y) > .5 ? normal.y : normal.z;
   if (first < 0) normal = -normal;
   PlaneKey key{};
-  for (int c = 0; c < 3; ++c) key[static_cast<size_t>(c)] = std::llround(normal[c] / Tuning::kSameNormal);
-  key[3] = std::llround(normal.dot(fromOrigin) / (Tuning::kSamePlane * size));
+  for (int c = 0; c < 3; ++c)
+    key[static_cast<size_t>(c)] = std::llround(normal[c] / tuning::Holes::kSameNormal);
+  key[3] = std::llround(normal.dot(fromOrigin) / (tuning::Holes::kSamePlane * size));
   return key;
 }
 
@@ -51,7 +50,7 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
     walls.back().area += areaOf(*polygons[i].second, scene.vertices);
   }
   std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.area > b.area; });
-  if (walls.size() > Tuning::kMostWalls) walls.resize(Tuning::kMostWalls);
+  if (walls.size() > tuning::Holes::kMostWalls) walls.resize(tuning::Holes::kMostWalls);
   for (Wall& wall : walls)
     std::stable_sort(wall.polygons.begin(), wall.polygons.end(), [&](const Polygon* a, const Polygon* b) {
       return areaOf(*a, scene.vertices) > areaOf(*b, scene.vertices);
@@ -62,7 +61,7 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
 // Determines which cells of a grid over a wall have their middle on one of its polygons.
 class Coverage {
  public:
-  static constexpr int kCells = Tuning::kCells;
+  static constexpr int kCells = tuning::Holes::kCells;
 
   Coverage(const Scene& scene, const Wall& wall, const Rectangle& r) : r_(r) {
     for (const Polygon* polygon : wall.polygons) {
@@ -95,7 +94,7 @@ class Coverage {
         const Extent e = fill(i, j);
         const int width = e.high[0] - e.low[0] + 1, height = e.high[1] - e.low[1] + 1;
         if (e.cells < tuning::Openings::kFilled * width * height) continue;
-        if (e.outline - e.free < Tuning::kSurrounded * e.outline) continue;
+        if (e.outline - e.free < tuning::Holes::kSurrounded * e.outline) continue;
         const double left = edgeAt(0, e.low[0]), right = edgeAt(0, e.high[0] + 1);
         const double bottom = edgeAt(1, e.low[1]), top = edgeAt(1, e.high[1] + 1);
         if (!(left < right) || !(bottom < top)) continue;

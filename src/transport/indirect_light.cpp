@@ -16,8 +16,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SensorNoise;
-
 // Whether interpolated light is valid at a side. Interpolated light was gathered in the complete scene,
 // without antimatter, and in the global medium. For very tilted normals, its moments give the light less
 // accurately.
@@ -141,7 +139,7 @@ void showFirstRays(const Gather& from, const std::array<Half, 2>& halves, int of
 void gatherAccurately(const Gather& from, int rays, Radiance& value) {
   const RayOptions& o = from.prepared.options();
   const int ofHalf = rays / 2;
-  const double allowed = o.ambientAccuracy / Tuning::kAccuracy;
+  const double allowed = o.ambientAccuracy / tuning::SensorNoise::kAccuracy;
   std::array<Half, 2> halves;
   const RayObserver* const observer = std::exchange(from.state.request.observer, nullptr);
   for (Half& half : halves) {
@@ -156,8 +154,8 @@ void gatherAccurately(const Gather& from, int rays, Radiance& value) {
     Half& half = halves[k];
     const double ratio = halves[1 - k].noise.ofWhole() / allowed;
     const double asked =
-        std::min((ratio * ratio - 1) * ofHalf, Tuning::kMostAdded * o.ambientSuperSamples / 2);
-    if (!(asked >= ofHalf / Tuning::kFewestAdded)) continue;  // also if it is not a number
+        std::min((ratio * ratio - 1) * ofHalf, tuning::SensorNoise::kMostAdded * o.ambientSuperSamples / 2);
+    if (!(asked >= ofHalf / tuning::SensorNoise::kFewestAdded)) continue;  // also if it is not a number
     half.added = static_cast<int>(asked);
     half.share = ofHalf / static_cast<double>(ofHalf + half.added);
   }

@@ -13,8 +13,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::LightVertices;
-
 // Moves the lowest 10 bits of x apart, so that each is followed by two zero bits.
 uint32_t spread(uint32_t x) {
   x = (x | x << 16) & 0x030000ff;
@@ -380,8 +378,9 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   sort();
   visible_.sort(prepared);
   if (met > 0 && surfaces_.coverage().allSources)
-    shareOfRest_ = std::clamp(Tuning::kRest * static_cast<double>(metUnknown) / static_cast<double>(met),
-                              Tuning::kLeastRest, 1.);
+    shareOfRest_ =
+        std::clamp(tuning::LightVertices::kRest * static_cast<double>(metUnknown) / static_cast<double>(met),
+                   tuning::LightVertices::kLeastRest, 1.);
 }
 
 // The distances depend on the size of the room, which is estimated by the mean length of first segments.
@@ -400,7 +399,7 @@ NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, u
   arriving_.clear();
   visible_.clear();
   const double meanLength = met > 0 ? sum / static_cast<double>(met) : 1;
-  return {Tuning::kWidth * meanLength, meanLength};
+  return {tuning::LightVertices::kWidth * meanLength, meanLength};
 }
 
 void LightVertices::sort() {
@@ -429,7 +428,7 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 double NearLight::closeShare(double distance, double fromEye) const {
   // The share is cut off beyond ten times the distance at which it is 1/2, so that it is 0 for most vertices.
   constexpr double kRest = 1. / 101;
-  const double close = Tuning::kClose * std::min(meanLength, fromEye);
+  const double close = tuning::LightVertices::kClose * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
   return std::max(0., (share - kRest) / (1 - kRest));
 }

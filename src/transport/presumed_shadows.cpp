@@ -6,7 +6,7 @@
 namespace rsphere {
 namespace {
 
-constexpr int kCells = 20;  // cells along a side; twice this for distant sources; as in RADIANCE
+constexpr int kShadowCells = 20;  // cells along a side; twice this for distant sources; as in RADIANCE
 
 // Divides the range from -1 to 1 into `count` cells. Returns the middle of the cell that contains x.
 double middle(double x, int count) {
@@ -58,10 +58,10 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
     const double t = (origin[axis] - point[axis]) / to[axis];
     if (!(t > kSamePlace)) return false;
     for (const int i : {a, b}) {
-      const double slope = to[i] / along, width = size_ * (1 + std::abs(slope)) / (2 * kCells);
+      const double slope = to[i] / along, width = size_ * (1 + std::abs(slope)) / (2 * kShadowCells);
       const double low = corner_[i] + std::min(0., size_ * slope);
       const double cell = std::floor((point[i] + t * to[i] - low) / width);
-      if (cell < 0 || cell >= 2 * kCells) return false;
+      if (cell < 0 || cell >= 2 * kShadowCells) return false;
       origin[i] = low + (cell + .5) * width;
     }
     onward = -to;
@@ -81,7 +81,8 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
   onward = V3d(0, 0, 0);
   for (int i = 0; i < 3; ++i)
     onward +=
-        (i == axis ? std::copysign(1., from[i]) : middle(from[i] / std::abs(from[axis]), kCells)) * axes[i];
+        (i == axis ? std::copysign(1., from[i]) : middle(from[i] / std::abs(from[axis]), kShadowCells)) *
+        axes[i];
   onward.normalize();
   // The line starts just in front of the source, because the source's center may lie inside it.
   constexpr double kBefore = .01;

@@ -11,8 +11,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::RadianceGuess;
-
 // Cap on the number of sources that are guessed separately. Those that contribute most are kept; the others
 // are included in the ambient light.
 const size_t kMostLights = tuning::Caps::kAimed / 2;
@@ -187,7 +185,8 @@ LocalGuess RadianceGuess::fit(const V3d& point, std::span<const V3d> glances, st
     local.lights_.push_back(light);
     arriving += light.share * -sum;
   }
-  local.bright_ = Tuning::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
+  local.bright_ =
+      tuning::RadianceGuess::kBright * arriving / static_cast<double>(std::max<size_t>(1, glances.size()));
   // Uses the median instead of the mean, because a few directions hit something very bright by chance.
   std::vector<double> around[3];
   Color parts;  // light of each contributor; the median is divided among contributors in this proportion

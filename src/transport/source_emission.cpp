@@ -10,8 +10,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SourceEmission;
-
 const Distant& distantOf(const Scene& scene, const LightSource& light) {
   return *scene.surfaces[light.surface].shape.as<Distant>();
 }
@@ -157,7 +155,7 @@ double SourceEmission::triedPower(LightId source) const {
   const Scene& scene = prepared_.scene();
   const double plain =
       brightness(sourceRadiance(scene, scene.surfaces[prepared_.lights().all()[source].surface]));
-  return kPi * senders_[source].area * (sum / tuning::Caps::kAsked + Tuning::kMissed * plain);
+  return kPi * senders_[source].area * (sum / tuning::Caps::kAsked + tuning::SourceEmission::kMissed * plain);
 }
 
 double SourceEmission::divergence(LightId source, double distance) const {

@@ -9,11 +9,9 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::SpecularLight;
-
 // The weight below which sharp paths of an indirect ray are subject to Russian roulette.
 double leastWeight(const PathSettings& settings, const PathContext& ray) {
-  return std::max(Tuning::kWeakBranch * ray.weight,
+  return std::max(tuning::SpecularLight::kWeakBranch * ray.weight,
                   isOfGather(settings, ray) ? 1 / tuning::RayLimits::kMostDescendants : 0);
 }
 

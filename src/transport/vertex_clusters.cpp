@@ -10,8 +10,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::VertexLight;
-
 // Relative rounding error of single precision, with a margin.
 constexpr double kRounding = 1e-6;
 
@@ -21,7 +19,7 @@ class Coordinates {
   explicit Coordinates(std::span<const LightVertex> vertices) : vertices_(vertices) {
     Box3d box;
     for (const LightVertex& v : vertices) box.extendBy(v.point());
-    if (!vertices.empty()) length_ = Tuning::kFacing * box.size().length();
+    if (!vertices.empty()) length_ = tuning::VertexLight::kFacing * box.size().length();
   }
   double of(uint32_t i, int axis) const {
     return axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3] * length_;
@@ -91,7 +89,7 @@ VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> verti
   };
   std::vector<Cluster> clusters;
   if (!vertices.empty()) clusters.push_back(clusterOf(order.vertices));
-  while (!clusters.empty() && clusters.size() < Tuning::kClusters) {
+  while (!clusters.empty() && clusters.size() < tuning::VertexLight::kClusters) {
     std::pop_heap(clusters.begin(), clusters.end());
     const Cluster widest = clusters.back();
     const double middle = .5 * (widest.widest.least + widest.widest.most);
@@ -203,7 +201,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
     for (size_t i = g * kGroup; i < (g + 1) * kGroup; ++i) groups[g] += weights[i];
   const double sum = std::accumulate(groups.begin(), groups.end(), 0.);
   if (!(sum > 0)) return {};
-  const double scale = static_cast<double>(Tuning::kCandidates) / sum;
+  const double scale = static_cast<double>(tuning::VertexLight::kCandidates) / sum;
   Candidates drawn;
   double due = random.uniform();
   const auto drawFrom = [&](size_t i) {

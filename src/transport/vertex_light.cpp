@@ -11,8 +11,6 @@
 namespace rsphere {
 namespace {
 
-using Tuning = tuning::VertexLight;
-
 // Selects one of `count` with probabilities proportional to weights. Returns count if all weights are 0.
 template <class WeightOf>
 size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& random) {
@@ -186,7 +184,7 @@ Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Rand
   const auto light = [&](size_t i) { return drawn.all[i].weight / drawn.all[i].drawn; };
   double all = 0;
   for (size_t i = 0; i < drawn.count; ++i) all += light(i);
-  const double each = all / Tuning::kJoined;
+  const double each = all / tuning::VertexLight::kJoined;
   double due = random.uniform();
   Radiance sum;
   for (size_t i = 0; i < drawn.count; ++i)

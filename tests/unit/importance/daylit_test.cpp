@@ -11,7 +11,7 @@
 #include "tests/unit/support/statistics.h"
 #include "transport/find_openings.h"
 
-namespace rsphere {
+namespace rsphere::daylit_test {
 namespace {
 
 const std::string kRoom =
@@ -111,4 +111,4 @@ TEST(Daylit, LampsKeepPathsFromTheEye) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::daylit_test

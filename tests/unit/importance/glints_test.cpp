@@ -10,7 +10,7 @@
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 
-namespace rsphere {
+namespace rsphere::glints_test {
 namespace {
 
 struct Setting : SphereSetting {
@@ -117,4 +117,4 @@ TEST(Glints, ThatMatterLittleAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::glints_test

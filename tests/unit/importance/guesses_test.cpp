@@ -13,7 +13,7 @@
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere {
+namespace rsphere::guesses_test {
 namespace {
 
 struct Setting : SphereSetting {
@@ -136,4 +136,4 @@ TEST(SeenSources, HowMuchIsHiddenByShadowRays) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::guesses_test

@@ -16,7 +16,7 @@
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere {
+namespace rsphere::point_picture_test {
 namespace {
 
 // ---- where directions lie
@@ -485,4 +485,4 @@ TEST(PointPicture, WrongNamesAreErrors) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::point_picture_test

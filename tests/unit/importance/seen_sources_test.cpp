@@ -11,7 +11,7 @@
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere {
+namespace rsphere::seen_sources_test {
 namespace {
 
 // Radiance 100; a mirror that reflects 90%.
@@ -199,4 +199,4 @@ TEST(SeenSources, HalfHidden) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::seen_sources_test

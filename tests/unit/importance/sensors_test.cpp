@@ -12,7 +12,7 @@
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere {
+namespace rsphere::sensors_test {
 namespace {
 
 using Sensors = std::vector<Sensor>;
@@ -184,4 +184,4 @@ TEST(Sensors, AreRefusedWithTheirNumber) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::sensors_test

@@ -11,7 +11,7 @@
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/transport/transport_fixture.h"
 
-namespace rsphere {
+namespace rsphere::targets_test {
 namespace {
 
 using std::numbers::pi;
@@ -196,4 +196,4 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::targets_test

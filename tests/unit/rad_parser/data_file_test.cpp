@@ -8,7 +8,7 @@
 
 #include "rad_parser/error.h"
 
-namespace rad {
+namespace rad::data_file_test {
 namespace {
 
 std::string errorOf(const std::string& text) {
@@ -82,4 +82,4 @@ TEST(DataFile, ErrorsHaveTheirPlace) {
 }
 
 }  // namespace
-}  // namespace rad
+}  // namespace rad::data_file_test

@@ -6,7 +6,7 @@
 
 #include "rad_parser/error.h"
 
-namespace rad {
+namespace rad::font_file_test {
 namespace {
 
 std::string errorOf(const std::string& text) {
@@ -132,4 +132,4 @@ TEST(TextLayout, ProportionalColumnsKeepInLine) {
 }
 
 }  // namespace
-}  // namespace rad
+}  // namespace rad::font_file_test

@@ -11,6 +11,7 @@
 #include "rad_parser/printable.h"
 #include "scene_text.h"
 
+namespace octree_file_test {
 namespace {
 
 using rad::Description;
@@ -429,3 +430,4 @@ TEST(OctreeFile, FlippedBytesAreReadOrRefused) {
 }
 
 }  // namespace
+}  // namespace octree_file_test

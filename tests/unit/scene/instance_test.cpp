@@ -4,7 +4,7 @@
 #include "tests/unit/support/scene_of.h"
 
 // Octrees and meshes that a scene brings in: what is read, how often, and what is refused.
-namespace rsphere {
+namespace rsphere::instance_test {
 namespace {
 
 constexpr const char* kGray = "void plastic gray\n0\n0\n5 .5 .5 .5 0 0\n";
@@ -152,4 +152,4 @@ TEST(Meshes, OnlyTheMaterialsThatAreUsedAreConverted) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::instance_test

@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "scene/shape.h"
 
-namespace rsphere {
+namespace rsphere::shape_questions_test {
 namespace {
 
 struct Row {
@@ -57,4 +57,4 @@ TEST(ShapeQuestions, HaveTheseAnswers) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::shape_questions_test

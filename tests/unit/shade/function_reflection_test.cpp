@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "tests/unit/shade/lobe_sampling.h"
 
-namespace rsphere {
+namespace rsphere::function_reflection_test {
 namespace {
 
 Color gray(double x) { return Color(x, x, x); }
@@ -145,4 +145,4 @@ TEST(Brtdfunc, HasFrontAndBack) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::function_reflection_test

@@ -12,7 +12,7 @@
 #include "tests/unit/shade/fake_hit.h"
 #include "tests/unit/support/bsdf_xml.h"
 
-namespace rsphere {
+namespace rsphere::spectral_materials_test {
 namespace {
 
 const SpectralSampling& sampling() { return spectralSampling(6, 380, 780); }
@@ -268,4 +268,4 @@ TEST(SpectralMist, HasThePattern) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::spectral_materials_test

@@ -17,7 +17,7 @@
 #include "shade/surface_functions.h"
 #include "tests/unit/support/scene_of.h"
 
-namespace rsphere {
+namespace rsphere::spectral_patterns_test {
 namespace {
 
 // A file that exists as long as the object.
@@ -486,4 +486,4 @@ TEST(SpecpictPattern, ColorpictRefersToIt) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::spectral_patterns_test

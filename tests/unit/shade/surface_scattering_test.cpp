@@ -12,7 +12,7 @@
 #include "tests/unit/shade/lobe_sampling.h"
 #include "tests/unit/support/bsdf_xml.h"
 
-namespace rsphere {
+namespace rsphere::surface_scattering_test {
 namespace {
 
 constexpr double kTiny = 1e-9;    // sr, of a source for which a lobe is a number
@@ -230,4 +230,4 @@ TEST(SurfaceScattering, TellsWhereDirectLightMatters) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::surface_scattering_test

@@ -12,7 +12,7 @@
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere {
+namespace rsphere::tracer_test {
 namespace {
 
 // Shapes are put at multiples of 2^-10, so that moving them by whole units rounds nothing.
@@ -440,4 +440,4 @@ TEST(Tracer, AnswersForScenesWithNothingToHit) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::tracer_test

@@ -12,7 +12,7 @@
 
 // Materials that depend on function files: every type against values of the original, their effect on
 // shadows, and errors in their files and arguments.
-namespace rsphere {
+namespace rsphere::function_materials_test {
 namespace {
 
 // Library files are those of tests/scenes/materials.
@@ -526,4 +526,4 @@ TEST_F(FunctionMaterials, NameTheirFaultsWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::function_materials_test

@@ -10,7 +10,7 @@
 #include "transport/find_openings.h"
 #include "transport/tuning.h"
 
-namespace rsphere {
+namespace rsphere::openings_test {
 namespace {
 
 // A room of 4 x 4 x 3 m. Its south wall has a hole of 2 x 1 m, its roof one of .6 x .6 m.
@@ -229,4 +229,4 @@ TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::openings_test

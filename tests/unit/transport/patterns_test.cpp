@@ -14,7 +14,7 @@
 
 // Patterns, textures and mixtures: every type against values of the original, and errors in their
 // files and arguments.
-namespace rsphere {
+namespace rsphere::patterns_test {
 namespace {
 
 // Library files are those of tests/scenes/patterns.
@@ -854,4 +854,4 @@ TEST_F(Patterns, SharedDefinitionsAreSeenByAllFunctionFiles) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::patterns_test

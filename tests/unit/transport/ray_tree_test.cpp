@@ -7,7 +7,7 @@
 #include "transport/ray_report.h"
 
 // The rays that an observer is shown.
-namespace rsphere {
+namespace rsphere::ray_tree_test {
 namespace {
 
 // A lamp over a floor, a pane between them, a ball of metal and a mirror.
@@ -126,4 +126,4 @@ TEST(RayTree, ShowsSurfacesOfNothing) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::ray_tree_test

@@ -11,7 +11,7 @@
 #include "base/constants.h"
 #include "tests/unit/transport/transport_fixture.h"
 
-namespace rsphere {
+namespace rsphere::virtual_sources_test {
 namespace {
 
 constexpr double kRadius = .01, kRadiance = 1e5;
@@ -336,4 +336,4 @@ TEST(VirtualSource, LongChainsOfImagesAreComplete) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::virtual_sources_test

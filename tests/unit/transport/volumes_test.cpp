@@ -12,7 +12,7 @@
 #include "base/spectral_sampling.h"
 #include "tests/unit/transport/original_room.h"
 
-namespace rsphere {
+namespace rsphere::volumes_test {
 namespace {
 
 // A ball of mist around (x, 0, 0). arguments: as in a scene file, with the numbers of strings and reals.
@@ -383,4 +383,4 @@ TEST(Antimatter, AgreesWithTheOriginal) {
 }
 
 }  // namespace
-}  // namespace rsphere
+}  // namespace rsphere::volumes_test
