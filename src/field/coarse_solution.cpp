@@ -11,8 +11,8 @@
 namespace rsphere {
 namespace {
 
-// The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its relative number
-// of rays.
+// The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its
+// relative number of rays.
 constexpr double kUsualAccuracy = .1;
 
 // Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
