@@ -377,6 +377,39 @@ TEST(RayWeights, WorkBetweenFiveBoxesHasABound) {
   }
 }
 
+// The same for a gather in the middle of two to eight boxes, also of materials that lose little light. However
+// many boxes there are, each ray of the gather has on average at most twice as many descendants as the number at
+// which roulette begins. Without roulette, the number of descendants grows exponentially.
+TEST(RayWeights, WorkOfAGathersRayIsConstantInNestedBoxes) {
+  constexpr int kRays = 64;
+  const std::string lampAndPlate =
+      "void light l 0 0 3 100 100 100\nl sphere lamp 0 0 4 0 0 0 .05\n"
+      "void plastic white 0 0 5 .8 .8 .8 0 0\nwhite ring plate 0 0 8 0 0 .1 0 0 1 0 .05\n";
+  for (const std::string material :
+       {"void trans rough 0 0 7 .8 .8 .8 .1 .1 .6 .4\n", "void trans rough 0 0 7 .9 .9 .9 .5 .2 .9 .8\n",
+        "void metal rough 0 0 5 .9 .9 .9 .9 .1\n"}) {
+    std::string boxes = lampAndPlate + material;
+    for (int count = 1; count <= 8; ++count) {
+      boxes += boxOf("rough", .2 + .05 * count);
+      if (count % 2 != 0) continue;
+      Traced nested(boxes, interpolated(1, kRays, {-10, 1e-4}));
+      int roots = 0, seen = 0;
+      const RayObserver counting = [&](const RayEnd& end, const RayResult&) {
+        if (end.context.ambientLevel != 1 || (end.context.kinds & kShadow)) return;
+        ++seen;
+        if (end.context.kind & kAmbient) ++roots;
+      };
+      PathRequest request;
+      request.observer = &counting;
+      PathTracer tracer = nested.tracerWith({}, {FirstBounce::gathered, true, false});
+      tracer.trace(V3d(0, 0, .15), V3d(0, 0, -1), 0, 1, request);
+      EXPECT_EQ(roots, kRays) << material << count;
+      EXPECT_GT(seen, 4 * roots) << material << count;
+      EXPECT_LT(seen, 2 * tuning::RayLimits::kMostDescendants * roots) << material << count;
+    }
+  }
+}
+
 // Pictures of a furnished office with six bounces took 87 s, because patches that others see were as small as
 // those that gathers see.
 TEST(RayWeights, PatchesThatOthersSeeMayBeWider) {
