@@ -377,8 +377,8 @@ TEST(RayWeights, WorkBetweenFiveBoxesHasABound) {
   }
 }
 
-// The same for a gather in the middle of two to eight boxes, also of materials that lose little light. However
-// many boxes there are, each ray of the gather has on average at most twice as many descendants as the number at
+// The same for a gather in the middle of 2 to 8 boxes, also of materials that lose little light. However
+// many there are, each ray of the gather has on average at most twice as many descendants as the number at
 // which roulette begins. Without roulette, the number of descendants grows exponentially.
 TEST(RayWeights, WorkOfAGathersRayIsConstantInNestedBoxes) {
   constexpr int kRays = 64;
