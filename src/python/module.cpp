@@ -85,6 +85,12 @@ Numbers numbersOf(const py::object& array, const std::string& name) {
   return array.cast<Numbers>();
 }
 
+// A required argument. Raises TypeError if it is missing. needs: what the method needs, and an example.
+const py::object& required(const py::object& argument, const char* needs) {
+  if (argument.is_none()) throw py::type_error(needs);
+  return argument;
+}
+
 // The scene of a method. Scene.__new__(Scene) and objects of other classes have none.
 const Scene& sceneOf(const py::object& self) {
   if (!py::isinstance<Scene>(self)) throw py::type_error("this method belongs to a Scene");
@@ -110,7 +116,7 @@ py::object answersObject(const py::dict& arrays) {
 
 py::object trace(const py::object& self, const py::object& given, const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
-  const Numbers array = numbersOf(given, "rays");
+  const Numbers array = numbersOf(required(given, "trace() needs rays: an array of shape (n, 6)"), "rays");
   const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
@@ -161,29 +167,35 @@ py::object arraysOf(PointAnswers&& a) {
 
 py::object sphere(const py::object& self, const py::object& given, const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
-  const Numbers array = numbersOf(given, "points");
+  const Numbers array =
+      numbersOf(required(given, "sphere() needs points: an array of shape (n, 3)"), "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
-// Whether goals are given as names of modifiers. Raises TypeError for a single word.
-bool areNames(const py::object& goals) {
-  if (py::isinstance<py::str>(goals)) throw py::type_error("goals must be a list: [\"desk\"]");
-  if (!py::isinstance<py::sequence>(goals)) return false;
-  const auto all = goals.cast<py::sequence>();
-  return all.size() == 0 || py::isinstance<py::str>(all[0]);
+// Whether all items are names of modifiers. Raises TypeError for a single name, because its letters would be
+// taken for names.
+bool areNames(const py::object& given, const std::string& argument) {
+  if (py::isinstance<py::str>(given))
+    throw py::type_error(argument + " must be a list: [" + py::repr(given).cast<std::string>() + "]");
+  if (!py::isinstance<py::sequence>(given)) return false;
+  for (const py::handle& item : given)
+    if (!py::isinstance<py::str>(item)) return false;
+  return true;
 }
 
 py::object importance(const py::object& self, const py::object& given, const py::object& goals,
                       const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
-  const Numbers array = numbersOf(given, "points");
+  const Numbers array =
+      numbersOf(required(given, "importance() needs points: an array of shape (n, 3)"), "points");
+  required(goals, "importance() needs goals: a list of modifiers, or sensors as an array of shape (n, 6)");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
   options.stop = interrupted;
-  if (areNames(goals)) {
+  if (areNames(goals, "goals")) {
     const auto names = goals.cast<std::vector<std::string>>();
     return arraysOf(withoutLock(options, [&] { return scene.importance(points, names, options); }));
   }
@@ -232,6 +244,11 @@ py::object sourcesOf(const std::vector<GlareSource>& sources) {
 py::object glare(const py::object& self, const py::object& eyes, const py::object& gazes,
                  const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
+  required(eyes, "glare() needs eyes: an array of shape (n, 3)");
+  required(
+      gazes,
+      "glare() needs gazes: the directions in which the eyes look, an array of shape (n, 3), or one gaze "
+      "of three numbers for all");
   const std::vector<Ray> rays = eyesOf(numbersOf(eyes, "eyes"), numbersOf(gazes, "gazes"));
   Options options = optionsOf(keywords);
   options.stop = interrupted;
@@ -252,10 +269,16 @@ py::object glare(const py::object& self, const py::object& eyes, const py::objec
   return answersObject(arrays);
 }
 
-py::object contributions(const py::object& self, const py::object& given, const std::vector<std::string>& of,
+py::object contributions(const py::object& self, const py::object& given, const py::object& of,
                          const py::object& bins, int samples, bool coefficients, const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
-  const Numbers array = numbersOf(given, "rays");
+  const Numbers array =
+      numbersOf(required(given, "contributions() needs rays: an array of shape (n, 6)"), "rays");
+  required(of, "contributions() needs of: the modifiers that contribute, a list such as [\"sky\", \"lamp\"]");
+  if (!areNames(of, "of")) throw py::type_error("of must be a list of modifiers: [\"sky\", \"lamp\"]");
+  if (keywords.contains("values"))
+    throw py::type_error("contributions() gives values unless coefficients=True; there is no 'values'");
+  const auto modifiers = of.cast<std::vector<std::string>>();
   const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
   ContributionOptions options;
   static_cast<Options&>(options) = optionsOf(keywords);
@@ -263,11 +286,11 @@ py::object contributions(const py::object& self, const py::object& given, const 
   options.samples = samples;
   options.coefficients = coefficients;
   options.stop = interrupted;
-  Contributions a = withoutLock(options, [&] { return scene.contributions(rays, of, options); });
+  Contributions a = withoutLock(options, [&] { return scene.contributions(rays, modifiers, options); });
   py::dict arrays;
   arrays["modifiers"] = py::cast(a.modifiers);
-  arrays["value"] = arrayOf(std::move(a.value), a.size, {of.size(), a.bins});
-  arrays["standard_error"] = arrayOf(std::move(a.standardError), a.size, {of.size(), a.bins});
+  arrays["value"] = arrayOf(std::move(a.value), a.size, {modifiers.size(), a.bins});
+  arrays["standard_error"] = arrayOf(std::move(a.standardError), a.size, {modifiers.size(), a.bins});
   return answersObject(arrays);
 }
 
@@ -438,13 +461,14 @@ PYBIND11_MODULE(rsphere, m) {
   py::class_<Scene>(m, "Scene", kScene)
       .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>())
-      .def("trace", &trace, py::arg("rays"), traceText.c_str())
-      .def("sphere", &sphere, py::arg("points"), sphereText.c_str())
-      .def("importance", &importance, py::arg("points"), py::arg("goals"), importanceText.c_str())
-      .def("glare", &glare, py::arg("eyes"), py::arg("gazes"), glareText.c_str())
-      .def("contributions", &contributions, py::arg("rays"), py::arg("of"), py::kw_only(),
-           py::arg("bins") = py::none(), py::arg("samples") = 8, py::arg("coefficients") = false,
-           contributionsText.c_str());
+      .def("trace", &trace, py::arg("rays") = py::none(), traceText.c_str())
+      .def("sphere", &sphere, py::arg("points") = py::none(), sphereText.c_str())
+      .def("importance", &importance, py::arg("points") = py::none(), py::arg("goals") = py::none(),
+           importanceText.c_str())
+      .def("glare", &glare, py::arg("eyes") = py::none(), py::arg("gazes") = py::none(), glareText.c_str())
+      .def("contributions", &contributions, py::arg("rays") = py::none(), py::arg("of") = py::none(),
+           py::kw_only(), py::arg("bins") = py::none(), py::arg("samples") = 8,
+           py::arg("coefficients") = false, contributionsText.c_str());
   m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
         "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),

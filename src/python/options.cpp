@@ -32,11 +32,13 @@ struct Keyword {
   }
 };
 
-// Whether a keyword cannot name an option of the command. Names of options contain no underscore. Keywords
-// such as "oVW" are also excluded: the letters after -f, -o, -te and -ti are a value, not part of the name.
+// Whether a keyword cannot name an option of the command. Names of options contain no underscore, and the
+// longest that applies to a call is pRGB. Keywords such as "oVW" are also excluded: the letters after -f, -o,
+// -te and -ti are a value, not part of the name.
 bool isNoOption(std::string_view name) {
+  constexpr size_t kLongest = 4;
   const size_t at = name.find('_');
-  if (at != name.npos && at + 1 < name.size()) return true;
+  if ((at != name.npos && at + 1 < name.size()) || name.size() > kLongest + (at != name.npos)) return true;
   if (name[0] == 'f' || name[0] == 'o') return name.size() > 1;
   return name.size() > 2 && (name.starts_with("te") || name.starts_with("ti"));
 }

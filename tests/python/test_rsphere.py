@@ -297,6 +297,26 @@ class Faults(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "^threads has a value of the wrong type: 'x'"):
             scene.sphere([[0, 0, 0]], threads="x")
 
+    def test_missing_and_wrong_arguments(self):
+        # These used to be answered with the signature of a function of the binding.
+        scene, rays, points = rsphere.Scene(ROOM), some_rays(2), [[2, 2, 1]]
+        for call, text in [
+            (lambda: scene.trace(), r"^trace\(\) needs rays: an array of shape \(n, 6\)$"),
+            (lambda: scene.sphere(), r"^sphere\(\) needs points: "),
+            (lambda: scene.importance(points), r"^importance\(\) needs goals: a list of modifiers, or sensors"),
+            (lambda: scene.glare(points), r"^glare\(\) needs gazes: the directions in which the eyes look"),
+            (lambda: scene.glare(gazes=[0, 1, 0]), r"^glare\(\) needs eyes: "),
+            (lambda: scene.contributions(rays), r"^contributions\(\) needs of: the modifiers that contribute"),
+            (lambda: scene.contributions(rays, of="bulb"), r"^of must be a list: \['bulb'\]$"),
+            (lambda: scene.contributions(rays, of=["bulb", 1]), r"^of must be a list of modifiers: "),
+            (lambda: scene.contributions(rays, of=1), r"^of must be a list of modifiers: "),
+            (lambda: scene.importance(points, goals="desk"), r"^goals must be a list: \['desk'\]$"),
+            (lambda: scene.contributions(rays, of=["bulb"], values=False), r"gives values unless coefficients=True"),
+            (lambda: scene.trace(rays, values=False), r"^'values' is not an option; help\(rsphere.Scene\) lists"),
+        ]:
+            with self.assertRaisesRegex(TypeError, text):
+                call()
+
     def test_a_scene_without_files(self):
         # It used to end the process.
         with self.assertRaisesRegex(TypeError, "^the Scene has no files"):
