@@ -104,7 +104,7 @@ void addBins(const Add& add) {
        .paragraph =
            "Number of bins of a modifier, as an expression of the definitions by the -e, -f and -p before "
            "it. Required if the expression of -b is not constant. A constant expression of -b must be 0 and "
-           "has one bin."});
+           "has one bin. All modifiers together have at most ten million bins, which take .7 GB."});
   add({.name = "-p",
        .arguments = "list",
        .value = +[](Options& o) -> std::string& { return own(o).next.definitions.parameters; },
@@ -170,8 +170,8 @@ bool takes(const OptionEntry& entry) {
   return !refused;
 }
 
-// With more columns, a record would exceed the memory of any machine.
-constexpr double kMostBins = 1e9;
+// A record with this number of bins takes .7 GB (measured).
+constexpr double kMostBins = 1e7;
 
 // Empty if the whole modifier is in bin 0.
 std::optional<BinFunction> binOf(const TrackedName& tracked, BinFunctions& functions) {
@@ -227,7 +227,10 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
     columns += bins;
   }
   if (columns > kMostBins)
-    throw rad::Error(fmt::format("a record would have {:.0f} bins: at most {:.0f}", columns, kMostBins));
+    throw rad::Error(
+        fmt::format("all modifiers together would have {:.0f} bins: at most {:.0f}; run rcontrib "
+                    "several times, with some of the modifiers each",
+                    columns, kMostBins));
   return modifiers;
 }
 

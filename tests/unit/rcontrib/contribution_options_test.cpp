@@ -88,6 +88,12 @@ TEST(ContributionOptions, FaultsSayWhatToDo) {
             "illegal non-zero constant for bin (2) of modifier 'a'");
   EXPECT_NE(fault({"-b", "Px", "-m", "a"}).find("unspecified or illegal bin count"), std::string::npos);
   EXPECT_NE(fault({"-b", "Px", "-bn", "0", "-m", "a"}).find("illegal bin count"), std::string::npos);
+  // A billion bins used to take memory until none was left.
+  EXPECT_NE(fault({"-b", "Px", "-bn", "1e9", "-m", "a"}).find("from 1 to 10000000"), std::string::npos);
+  EXPECT_EQ(
+      fault({"-b", "Px", "-bn", "6e6", "-m", "a", "-m", "b"}),
+      "all modifiers together would have 12000000 bins: at most 10000000; run rcontrib several times, with "
+      "some of the modifiers each");
   EXPECT_EQ(fault({"-b", "Px", "-bn", "Py", "-m", "a"}),
             "-bn 'Py': the number of bins must not depend on the ray");
   EXPECT_EQ(fault({"-r", "-fo", "-m", "a"}), "-r and -fo exclude each other");
