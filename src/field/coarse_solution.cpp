@@ -78,8 +78,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
-  const double accuracy =
-      std::max(options.accuracy, tuning::CoarseSolution::kFinestAccuracy) / kUsualAccuracy;
+  const double accuracy = std::max(options.accuracy / kUsualAccuracy, 1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   if (!daylit)
     return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,

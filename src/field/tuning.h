@@ -87,11 +87,11 @@ struct CoarseSolution {
   // With .6 (and .18 for kFarPatch, .1 for kLeastPatch), sensors near a window with blinds are 17% too
   // bright.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
-  // The side of a patch is at most this fraction of the viewing distance. Instead of using patches, paths are
+  // The side of a patch is at most this fraction of the viewing distance: derived. The edge of the patch is
+  // then at most 3% farther away than its middle, sqrt(1 + .25^2). Instead of using patches, paths are
   // followed if the viewing distance or the extent of the surface is below this multiple of a patch's side.
-  // Chosen by experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 2%,
-  // time 6%).
-  RSPHERE_TUNED(CoarseSolution, double, kHalf, .5);
+  // Changing it by 30% has no effect beyond noise (picture by sun; noise: error 2%, time 6%).
+  static constexpr double kHalf = .5;
   // Sufficient side of a patch, relative to the viewing distance. Measured together with kSpacing.
   RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .09);
   // Lower bound on the side of a patch, relative to its surface's extent. Without it, patches in a corner,
@@ -131,10 +131,6 @@ struct CoarseSolution {
   // Number of rays of a patch for each ray of a gather (-ad plus -as). Measured in daylit rooms: .1 instead
   // of .07 takes a third more time for a tenth less error.
   RSPHERE_TUNED(CoarseSolution, double, kRays, .06);
-  // Smallest -aa at which the number of rays still grows. Below -aa .1, that number is inversely proportional
-  // to -aa, because all places that see a patch share its noise. Measured: without this growth, the noise of
-  // sensors in a sunlit classroom at -aa .05 is .65%.
-  RSPHERE_TUNED(CoarseSolution, double, kFinestAccuracy, .02);
   // A patch sends the usual number of rays if its share in the light on the room's other surfaces has this
   // value. The number of rays is proportional to that share, which minimizes the noise for a given total
   // number. The share is about the patch's area divided by the square of the room's size. Outdoors, it is
@@ -147,6 +143,11 @@ struct CoarseSolution {
   // Upper bound on the number of rays of a patch, relative to the usual number; by lamps, it is 1. Measured:
   // with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and takes a
   // sixth more time.
+  //
+  // It also bounds the growth of the usual number by daylight. Below -aa .1, that is inversely proportional
+  // to -aa, because all places that see a patch share its noise. Measured: without this growth, the noise of
+  // sensors in a sunlit classroom at -aa .05 is .65%. Patches do not become smaller either beyond this
+  // growth.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);

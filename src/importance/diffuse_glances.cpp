@@ -37,7 +37,7 @@ struct Outdoors {
 };
 
 size_t poolsFor(const SphereOptions& options) {
-  return options.accuracy > 0 || options.glare.wanted ? DiffuseGlances::kPools : 1;
+  return options.accuracy > 0 || options.glare.wanted ? tuning::DiffuseGlances::kPools : 1;
 }
 
 // The error due to light vertices is estimated from the differences between batches of light paths. Each

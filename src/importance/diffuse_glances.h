@@ -20,10 +20,6 @@ namespace rsphere {
 // Shared by all threads.
 class DiffuseGlances {
  public:
-  // Number of pools of light vertices with -Sa and -Su. The sets of directions use them in turn, so that
-  // averaging sets also averages the error due to the vertices.
-  static constexpr size_t kPools = 8;
-
   // Null if bidirectional sampling would miss some of the light (PlainSurfaces::obstacle()). Keeps
   // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,

@@ -125,11 +125,11 @@ SampledSet joined(std::vector<KeptSet> sets, const TwoHalves& halves, const Irra
 
 // The relative error of the coarse solution, common to all points of a run; 0 without a coarse solution.
 double coarseError(const SphereTracing& tracing) {
-  using Tuning = tuning::ErrorEstimate;
   if (!tracing.caches.coarse) return 0;
   const RayOptions& o = tracing.prepared.options();
   const double rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
-  return Tuning::kPatches * std::sqrt(1 + Tuning::kUsualRays / std::max(rays, 1.));
+  return tuning::ErrorEstimate::kPatches *
+         std::sqrt(1 + tuning::ErrorEstimate::kUsualRays / std::max(rays, 1.));
 }
 
 // The variance of the total due to the relative error of the coarse solution.

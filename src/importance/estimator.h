@@ -61,12 +61,12 @@ class SphereEstimator {
   // on the point, the scene and the options. With -Sa, sets of directions with different rotations are
   // averaged until the estimated standard error of the brightness is below that fraction of the mean
   // (two_halves.h). They end early if the next set might exceed SphereOptions::mostOfAllSets(), and at a dark
-  // point after tuning::Dark::kSets sets.
+  // point after tuning::DiffuseGlances::kPools sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
   // Traces one set of directions. The integrals of one set are an estimate of those at the point, which
-  // estimate() averages over sets. Sets with different numbers below DiffuseGlances::kPools are independent
-  // of each other.
+  // estimate() averages over sets. Sets with different numbers below tuning::DiffuseGlances::kPools are
+  // independent of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return usual_.strategy->sample(set, workspace.tracer, workspace.voronoi_);
   }

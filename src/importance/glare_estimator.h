@@ -22,6 +22,7 @@
 
 #include "importance/estimator.h"
 #include "importance/glare_answer.h"
+#include "importance/tuning.h"
 
 namespace rsphere {
 
@@ -30,7 +31,7 @@ class GlareEstimator {
  public:
   // Number of sets of directions. Each has a separate pool of light vertices, so that all errors are
   // independent between sets.
-  static constexpr size_t kSets = DiffuseGlances::kPools;
+  static constexpr size_t kSets = tuning::DiffuseGlances::kPools;
 
   // options: as for SphereEstimator, with -Sw c.
   GlareEstimator(const Transport& transport, const SphereOptions& options);

@@ -59,6 +59,11 @@ struct DiffuseGlances {
   // Distances below this fraction of the mean length of light paths hardly increase the number of joins. With
   // .1 or .3, no effect beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
+  // The number of pools of light vertices with -Sa and -Su. Sets of directions use them in turn, so that
+  // averaging sets also averages the error due to the vertices. It is also the number of sets after which -Sa
+  // stops at a dark point: each pool has then been used once. In a closed metal column, these sets take 7 s
+  // (-ab 6).
+  static constexpr size_t kPools = 8;
   // The number of light paths, as a multiple of the number of base directions (-Sn). They are traced once,
   // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
   // of .1 s.
@@ -102,15 +107,8 @@ struct Targets {
   // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:
   // chosen by experiment. Fitting biases the mean if the number of directions is correlated with the radiance
   // that they find. With 8 no bias is found: .02 +- .02% (128 base directions). With 4 or 16, the errors in
-  // rooms with a window are the same.
+  // rooms with a window are the same. The cells outside all targets are fitted under the same condition.
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
-};
-
-// The cells of directions in targets (cells_in_targets.cpp).
-struct CellsInTargets {
-  // Largest relative change of the cells outside targets. If they would have to change more, all cells are
-  // scaled. Chosen without measurement: it matters only where targets fill nearly the whole sphere.
-  RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
 };
 
 // Images of light sources in mirroring balls (glints.cpp).
@@ -237,13 +235,11 @@ struct Stopping {
 // Points at which almost no light arrives (estimator.cpp, two_halves.cpp).
 struct Dark {
   // -Sa stops early if the mean is below this fraction of the average radiance on the scene's surfaces. A
-  // warning names the point if less than this fraction of the directions find light. Chosen without
-  // measurement. In closed metal furniture, one direction in a hundred thousand finds a gap between surfaces;
-  // a million directions could not measure its light within a percent. Changing it by 30% changes no answer.
-  RSPHERE_TUNED(Dark, double, kShare, 1e-3);
-  // Number of sets after which -Sa stops at a dark point: chosen by experiment. In a closed metal column they
-  // take 7 s (-ab 6).
-  RSPHERE_TUNED(Dark, size_t, kSets, 8);
+  // warning names the point if less than this fraction of the directions find light. Derived: it is two of
+  // the usual 2048 directions, whose mean is known within 71%. In closed metal furniture, one direction in a
+  // hundred thousand finds a gap between surfaces; a million directions could not measure its light within a
+  // percent. Changing it by 30% changes no answer.
+  static constexpr double kShare = 2. / 2048;
 };
 
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
@@ -264,8 +260,8 @@ struct Pictures {
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // Side of the squares of pixels (in pixels) in each of which one pixel gathers indirect light, with 32
-  // rays: chosen by experiment.
-  RSPHERE_TUNED(Pictures, int, kSharing, 2);
+  // rays: derived. It is the least with which pixels share light.
+  static constexpr int kSharing = 2;
   // The same where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:
   // chosen by experiment in the open-plan office. With 2, the error changes by -21%, with 4 by +26% (picture
   // from point with 1% of the pixels; noise: error 4%, time 6%).

@@ -27,7 +27,7 @@ std::optional<size_t> TwoHalves::next() const {
   if (b.sets == 0) return 1;
   const bool wantsA = a.sets < setsFor(b), wantsB = b.sets < setsFor(a);
   if (!wantsA && !wantsB && isReached()) return std::nullopt;
-  if (a.sets + b.sets >= tuning::Dark::kSets && average() < dark_) return std::nullopt;
+  if (a.sets + b.sets >= tuning::DiffuseGlances::kPools && average() < dark_) return std::nullopt;
   if (a.sets >= tuning::Stopping::kMostRatio * b.sets) return 1;
   if (b.sets >= tuning::Stopping::kMostRatio * a.sets) return 0;
   if (wantsA != wantsB) return wantsA ? 0 : 1;

@@ -26,8 +26,8 @@ namespace rsphere {
 // The last rule was rejected, because a third of its answers state a larger error than was requested.
 class TwoHalves {
  public:
-  // accuracy: the fraction; 0: one set is enough. dark: if the average is below this, tuning::Dark::kSets
-  // sets are enough, even if they do not reach the accuracy.
+  // accuracy: the fraction; 0: one set is enough. dark: if the average is below this,
+  // tuning::DiffuseGlances::kPools sets are enough, even if they do not reach the accuracy.
   explicit TwoHalves(double accuracy, double dark = 0) : accuracy_(accuracy), dark_(dark) {}
 
   // The half (0 or 1) to which the next set belongs. Empty if there are enough sets.

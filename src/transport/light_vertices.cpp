@@ -378,9 +378,9 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   sort();
   visible_.sort(prepared);
   if (met > 0 && surfaces_.coverage().allSources)
-    shareOfRest_ =
-        std::clamp(tuning::LightVertices::kRest * static_cast<double>(metUnknown) / static_cast<double>(met),
-                   tuning::LightVertices::kLeastRest, 1.);
+    shareOfRest_ = std::clamp(
+        static_cast<double>(metUnknown) / static_cast<double>(met) / tuning::VertexLight::kFollowed,
+        tuning::VertexLight::kFollowed / 2, 1.);
 }
 
 // The distances depend on the size of the room, which is estimated by the mean length of first segments.

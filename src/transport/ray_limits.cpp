@@ -72,12 +72,11 @@ bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state)
 }
 
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient) {
-  using Tuning = tuning::RayLimits;
   Descendants& descendants = state.descendants;
   const bool ofPatch = state.links;
-  const int freely = ofPatch ? Tuning::kAskedByPatch : Tuning::kAsked;
+  const int freely = ofPatch ? tuning::RayLimits::kAskedByPatch : tuning::RayLimits::kFreely;
   if (!(descendants.most > 0) || ++descendants.patches <= freely) return true;
-  const double further = ofPatch ? Tuning::kAskedByPatch : Tuning::kFurther;
+  const double further = ofPatch ? tuning::RayLimits::kAskedByPatch : tuning::RayLimits::kFurther;
   const double probability = further * ray.weight * maxChannel(coefficient) / descendants.weight;
   if (probability >= 1) return true;
   if (state.random.uniform() >= probability) return false;

@@ -48,7 +48,7 @@ inline Descendants descendantsOfGlimpse(int level) {
 // Starts counting the descendants of all rays of a patch of the coarse solution together. depth: of the
 // fictitious ray at whose end they start.
 inline Descendants descendantsOfPatch(int rays, int depth) {
-  return {tuning::RayLimits::kMostOfPatch * rays, kMeanReflectance, depth + 1, 1, 0};
+  return {double{tuning::RayLimits::kFreely} * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
 // Starts a new count of descendants for one ray of a final gather, if light is interpolated. There are two

@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "base/tuned.h"
+#include "light/tuning.h"
 
 namespace rsphere::tuning {
 
@@ -17,10 +18,21 @@ namespace rsphere::tuning {
 struct Caps {
   // Cap on each of these numbers; the brightest ones are kept:
   // - the openings, the spots and the highlights on balls at which rays from one point are aimed;
-  // - the parts of sources of which one ball shows highlights.
+  // - the parts of sources of which one ball shows highlights;
+  // - the descendants of a ray of a gather. Above it, further ones of low weight are subject to Russian
+  //   roulette. The ancestors of a further descendant are not counted. For a primary ray of sphere mode, the
+  //   limit is this number times -ad plus -as. Measured: 99% of the directions in a room with a chrome column
+  //   have fewer descendants (-ab 6, -ad 4); those in a closed metal cylinder have up to 1000.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
   // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Changing it by
   // 30% has no effect beyond noise (sensors by sun; noise: error 5%, time 4%).
+  //
+  // Sharp paths of a gather's ray are subject to Russian roulette if their weight is below the inverse of
+  // this; the probability of survival is proportional to their weight. Gathers start with a weight of 1/2, so
+  // that a ray has on average at most half this number of descendants at a time. Without a limit, that number
+  // doubles at each surface of nested transparent objects, up to -lr. With 32, three nested cylinders that
+  // reflect and transmit a tenth take a fifth less time, but there is more noise behind a pane that transmits
+  // 5%.
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. Changing
@@ -101,15 +113,19 @@ struct Openings {
   //   windows behind sunlit blinds                        1.1
   //   panes between two rooms                             about 1
   // Diffusing windows and windows behind blinds are recognized by the sky that is seen through them
-  // (kMoreSky). With 3, two of the four windows of a sunlit classroom are not found, and the noise of sensors
+  // (below). With 3, two of the four windows of a sunlit classroom are not found, and the noise of sensors
   // from sky light is 2.7 times as large.
+  //
+  // Regardless of brightness, one side is the bright side of an opening if two conditions hold: this many
+  // times as much unreflected sky light arrives from it as from the other side, and sky light is at least
+  // kLeast of all light from it. Sunlit blinds beside a pane are as bright as the sky on its other side, but
+  // little sky is seen through them.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
-  // Regardless of brightness, one side is the bright side of an opening if two conditions hold: at least
-  // kMoreSky times as much unreflected sky light arrives from it as from the other side, and sky light is at
-  // least kLeastSky of all light from it. Chosen by experiment. Sunlit blinds beside a pane are as bright as
-  // the sky on its other side, but little sky is seen through them.
-  RSPHERE_TUNED(Openings, double, kMoreSky, 3);
-  RSPHERE_TUNED(Openings, double, kLeastSky, .1);
+  // The fraction below which light is too weak to make an opening: of sky light in all light that arrives
+  // from a side, and of the radiance of an opening in that of the brightest one (portals.cpp). Chosen by
+  // experiment. Paths from the eye find the light of openings that are no portals. Rays to a false opening,
+  // such as a hole in the plane of the desk tops of a classroom, would be lost.
+  RSPHERE_TUNED(Openings, double, kLeast, .2);
   // A hole is treated as the same opening as another one if both are parallel (cosine of the angle at least
   // kParallel) and the distance between their middles is below kSameHole times the shortest side of both.
   // This finds the two faces of a wall, which are nearer to each other than a door is wide.
@@ -130,16 +146,6 @@ struct SensorNoise {
   // If the rays to be added are fewer than those already sent divided by this, none are added, because so few
   // would be unevenly distributed over the hemisphere.
   static constexpr int kFewestAdded = 8;
-};
-
-// Openings as light sources of paths from both ends (portals.cpp).
-struct Portals {
-  // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the
-  // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
-  // classroom, would be lost.
-  RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
-  // The fraction of the rays for the light of portals that are aimed at them.
-  RSPHERE_TUNED(Portals, double, kAimed, .75);
 };
 
 // The control variate of sphere mode (radiance_guess.cpp).
@@ -170,7 +176,8 @@ struct GatherDirections {
   //   value   variance x time in the four rooms
   //   .5      1.3  .9   1    1
   //   .3      7.8  2.4  1.1  1.2
-  // For spots, the results from .5 to .9 do not differ beyond noise.
+  // For spots, the results from .5 to .9 do not differ beyond noise. It is also the fraction of the rays for
+  // the light of portals that are aimed at them (portals.cpp).
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
   // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
   // near openings, where rooms are brighter than farther inside. Measured:
@@ -205,9 +212,8 @@ struct Highlights {
   // office; noise: error below 1%, time 6%).
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
-  // wider part would be noticeably curved. Derived: the edge of a part is then at most 3% farther away than
-  // its middle, sqrt(1 + .25^2).
-  static constexpr double kHalf = .25;
+  // wider part would be noticeably curved. Derived: see SourceParts::kNear.
+  static constexpr double kHalf = SourceParts::kNear / 2;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region around the image of a source in a mirroring ball (importance/glints.h) to that image.
   // Without this margin, few directions would hit the edge, and a part of the image would be lost. Changing
@@ -227,9 +233,11 @@ struct Interpolation {
   // has no effect beyond noise; increasing it by 30% reduces the time by 23% (picture of workshop; noise:
   // error 13%, time 4%).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
-  // Number of rays that estimate the distances around a site (root mean square and harmonic mean). Chosen by
-  // experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 3%, time 5%).
-  RSPHERE_TUNED(Interpolation, int, kReachRays, 16);
+  // Number of rays that estimate the distances around a site (root mean square and harmonic mean): derived.
+  // If single distances vary as much as their mean, that is known within 25%, half of the step between the
+  // sides of cells, which are powers of two. Changing it by 30% has no effect beyond noise (picture by sun;
+  // noise: error 3%, time 5%).
+  static constexpr int kReachRays = 16;
 };
 
 // Light paths (light_vertices.h). Lengths are relative to the mean distance from the sources to the first
@@ -246,10 +254,6 @@ struct LightVertices {
   // a gap of 2 mm between a sheet of paper and the goal. Measured: with .01, the error around the goal is 10%
   // larger, in a tenth less time; .4 has no effect beyond noise.
   RSPHERE_TUNED(LightVertices, double, kClose, .1);
-  // The probability of following a path from the eye at a visible place, for light that is left to such
-  // paths, is kRest times the fraction of light path hits on unknown surfaces, but at least kLeastRest.
-  RSPHERE_TUNED(LightVertices, double, kRest, 4);
-  RSPHERE_TUNED(LightVertices, double, kLeastRest, .125);
 };
 
 // Light that leaves sources (source_emission.h).
@@ -283,38 +287,33 @@ struct VertexLight {
   RSPHERE_TUNED(VertexLight, double, kStrong, .1);
   // Probability of a gather at a surface that is seen in a reflection. The gather estimates light that has
   // reached the surface by another reflection, which vertices do not provide.
+  //
+  // At a visible place, a path from the eye is followed for the light that is left to such paths. If at least
+  // this fraction of the hits of light paths are on unknown surfaces, it is always followed. If fewer are,
+  // the probability is proportional to their fraction, but at least half of this.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 
 // Limits on the number of rays into which a ray splits (ray_limits.h).
 struct RayLimits {
-  // If a ray of a gather has more than this number of descendants, further ones of low weight are subject to
-  // Russian roulette. The ancestors of a further descendant are not counted. For a primary ray of sphere
-  // mode, the limit is this number times -ad plus -as. Measured: 99% of the directions in a room with a
-  // chrome column have fewer descendants (-ab 6, -ad 4); those in a closed metal cylinder have up to 1000.
-  //
-  // Sharp paths of a gather's ray are subject to Russian roulette if their weight is below the inverse of
-  // this; the probability of survival is proportional to their weight. Gathers start with a weight of 1/2, so
-  // that a ray has on average at most half this number of descendants at a time. Without a limit, that number
-  // doubles at each surface of nested transparent objects, up to -lr. With 32, three nested cylinders that
-  // reflect and transmit a tenth take a fifth less time, but there is more noise behind a pane that transmits
-  // 5%.
-  RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
-  // The limit for a patch of the coarse solution is this number times its rays. Measured: without a limit,
-  // most patches between two boxes of rough trans would have 16 to 40 descendants per ray; between boxes of
-  // rough metal, 7 to 9. With 8, a point in front of the boxes of trans takes twice the time for the same
-  // noise.
-  RSPHERE_TUNED(RayLimits, double, kMostOfPatch, 2);
-  // A ray of a gather, or a primary ray of sphere mode, uses kAsked patches regardless of weight. It uses
-  // about kFurther more, with probabilities proportional to weight. Where surfaces reflect and transmit in
-  // lobes, a ray requests 5 patches in an open-plan office, and 12 between boxes of rough trans. Most
-  // contribute little, and each has rays of its own: without a limit, a point in front of the boxes takes
-  // twice the time. Measured standard deviation of directions between the boxes:
-  //   kAsked   kFurther
-  //   2        8          6%
-  //   2        4          37%
-  //   1        1          90%
-  RSPHERE_TUNED(RayLimits, int, kAsked, 2);
+  // Limit on the descendants of a ray of a gather: see Caps::kAimed.
+  static inline const double kMostDescendants = static_cast<double>(Caps::kAimed);
+  // The number of rays into which a ray may split regardless of weight: derived. A surface that it hits may
+  // reflect one and transmit one. It is used for
+  // - the descendants of each ray of a patch of the coarse solution, on average. Measured: without a limit,
+  //   most patches between two boxes of rough trans would have 16 to 40 descendants per ray; between boxes of
+  //   rough metal, 7 to 9. With 8, a point in front of the boxes of trans takes twice the time for the same
+  //   noise;
+  // - the patches that a ray of a gather, or a primary ray of sphere mode, uses regardless of weight.
+  static constexpr int kFreely = 2;
+  // Such a ray uses about kFurther more patches, with probabilities proportional to weight. Where surfaces
+  // reflect and transmit in lobes, a ray requests 5 patches in an open-plan office, and 12 between boxes of
+  // rough trans. Most contribute little, and each has rays of its own: without a limit, a point in front of
+  // the boxes takes twice the time. Measured standard deviation of directions between the boxes:
+  //   kFreely   kFurther
+  //   2         8          6%
+  //   2         4          37%
+  //   1         1          90%
   RSPHERE_TUNED(RayLimits, double, kFurther, 8);
   // Number of patches that each ray of a patch uses; there are no further ones. It is the least possible
   // number, because such rays are numerous. With 4, the point in front of the boxes takes twice the time for

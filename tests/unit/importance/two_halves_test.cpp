@@ -113,7 +113,7 @@ TEST(TwoHalves, NothingToFindIsFoundWithTwoSets) {
 
 TEST(TwoHalves, GiveUpInTheDark) {
   TwoHalves dark(.01, 1), lit(.01, 1);
-  for (size_t sets = 0; sets < tuning::Dark::kSets; ++sets) {
+  for (size_t sets = 0; sets < tuning::DiffuseGlances::kPools; ++sets) {
     const auto half = dark.next();
     ASSERT_TRUE(half);
     dark.add(*half, .5, 1);

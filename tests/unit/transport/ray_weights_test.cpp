@@ -237,7 +237,7 @@ TEST(RayWeights, ThePathsOfAPatchHaveABound) {
     sum += child.coefficient.color.x;
   }
   // The weight that a child needs grows with the square of the number: n^3 / 3 is as large as the children's.
-  const double most = tuning::RayLimits::kMostOfPatch * rays;
+  const double most = tuning::RayLimits::kFreely * rays;
   EXPECT_LT(followed, most * (2 + std::cbrt(3. * children / most)));
   EXPECT_GT(followed, most);
   EXPECT_NEAR(sum / children, .9, .9 * kMostSigmas / std::sqrt(followed / 3.));
