@@ -176,8 +176,15 @@ void merge(std::vector<Opening>& panes) {
     }
 }
 
-// Panes and holes that may be openings, the largest first. face: area of the largest face of the scene's box
-// (square world units).
+// The area of a wall as wide and high as the scene, with which areas of openings are compared (square world
+// units). A wide ground does not count: compared with its area, the windows of a room on a ground of 1 km
+// would be too small. If the scene is flat, the height is a thousandth of the width.
+double wallOf(const V3d& size) {
+  const auto [least, most] = std::minmax({size.x, size.y, size.z});
+  return most * std::max(least, 1e-3 * most);
+}
+
+// Panes and holes that may be openings, the largest first. face: see wallOf().
 std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
   std::vector<Opening> asked = panesOf(prepared, tuning::Openings::kLeastArea * face);
   const std::vector<Opening> doors = doorsOf(prepared, tuning::Openings::kLeastArea * face);
@@ -194,8 +201,7 @@ Openings findOpenings(const PreparedScene& prepared) {
   const Box3d& bounds = prepared.tracer().bounds();
   if (bounds.isEmpty()) return {{}, 0, 0};
   const V3d size = bounds.size();
-  const double face = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
-  std::vector<Opening> asked = candidates(prepared, face), found;
+  std::vector<Opening> asked = candidates(prepared, wallOf(size)), found;
   if (asked.empty()) return {{}, 0, 0};
   Probe probe(prepared, std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace));
   double all = 0, inside = 0, depth = 0;

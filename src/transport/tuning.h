@@ -102,9 +102,10 @@ struct Holes {
 
 // Portals of daylight, at which indirect rays are aimed (find_openings.cpp, openings.cpp).
 struct Openings {
-  // Panes and holes are ignored if their area is below this fraction of the largest face of the scene's box,
-  // because each opening costs time in each gather. Derived: a door of 2 m2 is found in a scene of up to
-  // 1400 m. Changing it by 30% changes no answer.
+  // Panes and holes are ignored if their area is below this fraction of a wall as wide and as high as the
+  // scene, because each opening costs time in each gather. Derived: a window of 6 x 6 cm is found in a room
+  // of 3 m on a ground of 1 km, and a door of 2 m2 in a city of 10 km by 200 m. Changing it by 30%
+  // changes no answer.
   static constexpr double kLeastArea = 1e-6;
   // A pane or hole is an opening if one side is at least this many times brighter than the other. Typical
   // ratios:

@@ -77,6 +77,17 @@ TEST(Openings, AreFoundWhereDaylightComesIn) {
   }
 }
 
+// A ground of 2 km was taken for the largest face of the scene, so that all openings of the room seemed too
+// small. Means of daylight then had 50 times the noise.
+TEST(Openings, AreFoundOnAWideGround) {
+  const std::string ground = "gray ring ground 0 0 8 0 0 -.02 0 0 1 0 1000\n";
+  for (const std::string& panes : {std::string(), kWindow + kSkylight}) {
+    const Openings openings = openingsOf(kSky + kRoom + panes + ground);
+    EXPECT_GT(radianceAt(openings, V3d(2, 3.5, 0), V3d(0, 0, 1)), .01486 * .7) << panes;
+    EXPECT_GT(radianceAt(openings, V3d(3, 3, 0), V3d(0, 0, 1)), .01) << panes << "below the skylight";
+  }
+}
+
 // Sunlight on the floor makes the room so bright that the sky is only about twice as bright.
 TEST(Openings, AreFoundAlthoughTheSunShinesIn) {
   const std::string sun = "void light sunlight 0 0 3 6e5 6e5 6e5\nsunlight source sun 0 0 4 0 -1 1 .53\n";
