@@ -1,7 +1,9 @@
 #include "transport/vertex_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "scene/shape.h"
@@ -30,11 +32,21 @@ class Coordinates {
     double least = 0, most = 0;
     double width() const { return most - least; }
   };
+  // All coordinates are compared in one pass, because most vertices are not in the processor's cache.
   Widest widest(std::span<const uint32_t> some) const {
+    std::array<double, 6> least, most;
+    least.fill(std::numeric_limits<double>::infinity());
+    most.fill(-std::numeric_limits<double>::infinity());
+    for (const uint32_t i : some)
+      for (int axis = 0; axis < 6; ++axis) {
+        const double x = axis < 3 ? vertices_[i].place[axis] : vertices_[i].facing[axis - 3];
+        least[axis] = std::min(least[axis], x);
+        most[axis] = std::max(most[axis], x);
+      }
     Widest widest;
     for (int axis = 0; axis < 6; ++axis) {
-      const auto [least, most] = std::ranges::minmax(some, {}, [&](uint32_t i) { return of(i, axis); });
-      const Widest along{axis, of(least, axis), of(most, axis)};
+      const double unit = axis < 3 ? 1 : length_;
+      const Widest along{axis, least[axis] * unit, most[axis] * unit};
       if (along.width() > widest.width()) widest = along;
     }
     return widest;
