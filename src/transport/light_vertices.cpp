@@ -266,11 +266,7 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
-  // By lamps, light that has arrived by a reflection has an unbounded kernel (vertex_light.h). By daylight it
-  // has the bounded one: some of the paths from the eye bring the rest of the light of near surfaces.
-  const bool bounded = !all_.surfaces_.portals().empty() && past_.way != LightVertex::direct;
-  all_.all_.push_back(
-      vertexAt(at, reflected, past_.bounces + 1, bounded ? LightVertex::unweighed : past_.way, batch_));
+  all_.all_.push_back(vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_));
   all_.arriving_.push_back({std::move(arriving), at.material});
 }
 

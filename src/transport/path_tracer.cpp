@@ -166,8 +166,6 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   if (state_.request.observer && !end.ray.unobstructed &&
       (end.ray.aimedAt == kNone || end.hit.surface != kNone))
     (*state_.request.observer)(end, result);
-  if (end.context.known == Known::unjoined && end.context.unjoinedShare < 1)
-    shading_.weighPortal(end, result);
   media_.participate(end, result.value);
   return result;
 }

@@ -84,9 +84,6 @@ struct PathContext {
   double shadowLength = 0;    // total length of those ancestors that are shadow rays
   SurfaceId mirror = kNone;   // if only a flat mirror has deflected the primary ray: that mirror
   Known known = Known::no;
-  // With Known::unjoined: of the light that arrives at the last diffuse surface by a reflection, the fraction
-  // that paths from both ends do not estimate.
-  double unjoinedShare = 1;
   const RayEnd* parent = nullptr;  // null: a primary ray, or a ray that does not depend on earlier ones
   RaySpace space{};
   uint64_t clips = 0;           // bits (Surface::clip) of the surfaces that antimatter cuts away for this ray
@@ -133,8 +130,7 @@ struct RayEnd {
         hit(other.hit),
         clipsBeyond(other.clipsBeyond),
         beganIn(other.beganIn),
-        known(other.known),
-        unjoinedShare(other.unjoinedShare) {}
+        known(other.known) {}
 
   const RayQuery& ray;
   const PathContext& context;
@@ -143,7 +139,6 @@ struct RayEnd {
   // Set if the surface that was hit shows that the ray started in another medium than the inherited one.
   std::optional<RaySpace> beganIn;
   Known known = Known::no;  // for the rays that start here; set when the surface is shaded
-  double unjoinedShare = 1;
 
   const RaySpace& space() const { return beganIn ? *beganIn : context.space; }
   const Medium& medium() const { return space().medium; }

@@ -55,7 +55,6 @@ inline NextRay::NextRay(const RayEnd& parent, RayKind kind, const Coefficient& o
               .shadowLength =
                   parent.context.kinds & kShadow ? parent.context.shadowLength + parent.hit.length : 0,
               .known = parent.known,
-              .unjoinedShare = parent.unjoinedShare,
               .parent = &parent,
               .space = parent.space(),
               .clips = (kind & kReflections) ? parent.context.clips : parent.clipsBeyond,

@@ -110,10 +110,8 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   // passes only panes on its way to the portal. Other rays end at the portal or begin anew there.
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
       state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
-      ((end.context.kinds & kShadow) || !leavesThroughPortal(end))) {
+      ((end.context.kinds & kShadow) || !leavesThroughPortal(end)))
     end.known = end.context.known;
-    end.unjoinedShare = end.context.unjoinedShare;
-  }
   if (!surface.goal || end.hit.cosine < 0) return shadeChain(end, surface.modifier, result);
   RayEnd ofGoal = end;
   RayResult emitted;
@@ -267,13 +265,6 @@ Coefficient SurfaceShading::lobesCoefficient(const S& scattering, const SourceSa
 
 namespace {
 
-// The distance from the last diffuse surface, or from the eye.
-double lengthSinceDiffuse(const RayEnd& end) {
-  const PathContext* ray = &end.context;
-  while (!(ray->kind & kAmbient) && ray->parent) ray = &ray->parent->context;
-  return end.context.pathLength - ray->pathLength + end.hit.length;
-}
-
 // Whether the path from the eye, or from the last diffuse surface, to the end of a ray contains a reflection.
 bool isMirrored(const PathContext& context) {
   for (const PathContext* ray = &context; !(ray->kind & kAmbient) && ray->parent; ray = &ray->parent->context)
@@ -329,20 +320,6 @@ double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   return state_.random.uniform() < probability ? 1 / probability : 0;
 }
 
-// Sets which light the rays of a gather estimate at a place where paths from both ends estimate the rest. By
-// daylight, these rays also estimate light of near surfaces that has reached them by a reflection, because
-// vertices bring only a part of it.
-void SurfaceShading::setKnownBeyond(RayEnd& end, const FromBothEnds& both) const {
-  end.known = both.indirectHere ? Known::unjoined : Known::joined;
-  if (both.indirectHere || both.indirect->portals().empty() || end.context.ambientLevel == 0) return;
-  if (isMirrored(end.context)) {
-    end.unjoinedShare = 0;
-    return;
-  }
-  end.known = Known::unjoined;
-  end.unjoinedShare *= state_.request.vertexLight->vertices().nearLight().share(lengthSinceDiffuse(end));
-}
-
 void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient,
                                      Radiance& value) {
   const VertexLight& light = *state_.request.vertexLight;
@@ -361,9 +338,8 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
   };
   const OutdoorRadiance outdoors(beyond);
   scratch_.outdoors = &outdoors;
-  value +=
-      coefficient * end.context.unjoinedShare *
-      light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel}, state_.random, scratch_);
+  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel},
+                                          state_.random, scratch_);
   scratch_.outdoors = nullptr;
 }
 
@@ -374,8 +350,7 @@ void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown s
   const PlainPlace at{
       end.hit.point,  normal, known.finishOf(hit).opaque, hit, isFlat(t_.scene().surfaces[hit].shape),
       end.hit.pattern};
-  value += end.context.unjoinedShare *
-           light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
+  value += light.directOf(at, {.view = end.ray.direction, .shown = shown}, state_.random, scratch_);
 }
 
 // The light that a surface scatters towards the ray's origin: sharp paths and lobes, then the indirect and
@@ -388,7 +363,7 @@ bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   if (both.directHere != Shown::none)
     addFromSource(end, scattering.trueNormal(), both.directHere, result.value);
   const bool shares = estimateLobes(end, scattering, !both.direct, result);
-  if (both.indirect) setKnownBeyond(end, both);
+  if (both.indirect) end.known = both.indirectHere ? Known::unjoined : Known::joined;
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())

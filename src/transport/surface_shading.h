@@ -29,10 +29,6 @@ class SurfaceShading {
   // Whether paths from both ends estimate all of the light along a ray, because it leaves through a portal
   // (portals.h).
   bool leftToPortals(const RayEnd& end) const;
-  // Weights the light of a ray that leaves through a portal after a reflection by PathContext::unjoinedShare.
-  void weighPortal(const RayEnd& end, RayResult& result) const {
-    if (!(end.context.kinds & kShadow) && leavesThroughPortal(end)) result.value *= end.context.unjoinedShare;
-  }
 
   // Implements RayFollower::shade().
   bool shadeChain(RayEnd& end, ModifierId modifier, RayResult& result);
@@ -88,7 +84,6 @@ class SurfaceShading {
   };
   bool leavesThroughPortal(const RayEnd& end) const;
   FromBothEnds fromBothEnds(const RayEnd& end);
-  void setKnownBeyond(RayEnd& end, const FromBothEnds& both) const;
   double restOf(const RayEnd& end, const FromBothEnds& both);
   void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
   void addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value);
