@@ -1,5 +1,7 @@
 #include "importance/cells_in_targets.h"
 
+#include <cmath>
+
 #include "importance/tuning.h"
 
 namespace rsphere {
@@ -16,15 +18,10 @@ void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
 
 void scale(std::vector<CellInTarget>& cells, double total) {
   double inside = 0, outside = 0;
-  size_t countOutside = 0;
   for (const CellInTarget& cell : cells)
-    if (cell.enters) {
-      (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
-      countOutside += cell.fitted == 0;
-    }
+    if (cell.enters) (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
   const double left = total - inside;
-  const bool byOutside =
-      left > 0 && outside > 0 && static_cast<double>(countOutside) >= tuning::Targets::kFewestFitted;
+  const bool byOutside = left > 0 && std::abs(left - outside) < tuning::CellsInTargets::kMostScaled * outside;
   const double all = inside + outside;
   const double factor = byOutside ? left / outside : all > 0 ? total / all : 0;
   for (CellInTarget& cell : cells)

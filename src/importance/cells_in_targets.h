@@ -21,7 +21,7 @@ struct CellInTarget {
 // - In each fitted target, cells are scaled so that they add up to its solid angle. This removes the error
 //   due to the random number of directions inside the target, and to cells that its edge divides.
 // - All cells that enter the mean are scaled to add up to `total` (sr). Only cells outside the fitted targets
-//   change, if there are at least tuning::Targets::kFewestFitted of them.
+//   change, unless the change would exceed tuning::CellsInTargets::kMostScaled.
 std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
 
 }  // namespace rsphere

@@ -107,8 +107,15 @@ struct Targets {
   // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:
   // chosen by experiment. Fitting biases the mean if the number of directions is correlated with the radiance
   // that they find. With 8 no bias is found: .02 +- .02% (128 base directions). With 4 or 16, the errors in
-  // rooms with a window are the same. The cells outside all targets are fitted under the same condition.
+  // rooms with a window are the same.
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
+};
+
+// The cells of directions in targets (cells_in_targets.cpp).
+struct CellsInTargets {
+  // Largest relative change of the cells outside targets. If they would have to change more, all cells are
+  // scaled. Chosen without measurement: it matters only where targets fill nearly the whole sphere.
+  RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
 };
 
 // Images of light sources in mirroring balls (glints.cpp).

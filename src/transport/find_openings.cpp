@@ -37,7 +37,7 @@ struct Seen {
 
 // Whether `one` is the bright side of an opening.
 bool showsMoreSky(const Seen& one, const Seen& other) {
-  return one.sky > std::max(tuning::Openings::kBrighter * other.sky, tuning::Openings::kLeast * one.all);
+  return one.sky > std::max(tuning::Openings::kMoreSky * other.sky, tuning::Openings::kLeastSky * one.all);
 }
 bool isBrighter(const Seen& one, const Seen& other) {
   return showsMoreSky(one, other) ||

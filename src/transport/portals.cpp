@@ -22,7 +22,7 @@ Portals::Portals(const Openings& openings, double size) : lift_(std::max(1e-6 * 
   double brightest = 0;
   for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);
   for (const auto& [place, radiance] : openings.views()) {
-    if (radiance < tuning::Openings::kLeast * brightest) continue;
+    if (radiance < tuning::Portals::kLeastRadiance * brightest) continue;
     Portal portal{place, radiance};
     portal.corner -= lift_ * portal.normal;
     portals_.push_back(portal);
@@ -60,7 +60,7 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
     seen_.push_back({&p, shape, sum});
   }
   for (Seen& s : seen_) s.upTo /= sum;
-  if (sum > 0) aimed_ = tuning::GatherDirections::kAimed;
+  if (sum > 0) aimed_ = tuning::Portals::kAimed;
 }
 
 double PortalDirections::density(const V3d& direction) const {

@@ -18,21 +18,10 @@ namespace rsphere::tuning {
 struct Caps {
   // Cap on each of these numbers; the brightest ones are kept:
   // - the openings, the spots and the highlights on balls at which rays from one point are aimed;
-  // - the parts of sources of which one ball shows highlights;
-  // - the descendants of a ray of a gather. Above it, further ones of low weight are subject to Russian
-  //   roulette. The ancestors of a further descendant are not counted. For a primary ray of sphere mode, the
-  //   limit is this number times -ad plus -as. Measured: 99% of the directions in a room with a chrome column
-  //   have fewer descendants (-ab 6, -ad 4); those in a closed metal cylinder have up to 1000.
+  // - the parts of sources of which one ball shows highlights.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
   // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Changing it by
   // 30% has no effect beyond noise (sensors by sun; noise: error 5%, time 4%).
-  //
-  // Sharp paths of a gather's ray are subject to Russian roulette if their weight is below the inverse of
-  // this; the probability of survival is proportional to their weight. Gathers start with a weight of 1/2, so
-  // that a ray has on average at most half this number of descendants at a time. Without a limit, that number
-  // doubles at each surface of nested transparent objects, up to -lr. With 32, three nested cylinders that
-  // reflect and transmit a tenth take a fifth less time, but there is more noise behind a pane that transmits
-  // 5%.
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. Changing
@@ -114,19 +103,15 @@ struct Openings {
   //   windows behind sunlit blinds                        1.1
   //   panes between two rooms                             about 1
   // Diffusing windows and windows behind blinds are recognized by the sky that is seen through them
-  // (below). With 3, two of the four windows of a sunlit classroom are not found, and the noise of sensors
+  // (kMoreSky). With 3, two of the four windows of a sunlit classroom are not found, and the noise of sensors
   // from sky light is 2.7 times as large.
-  //
-  // Regardless of brightness, one side is the bright side of an opening if two conditions hold: this many
-  // times as much unreflected sky light arrives from it as from the other side, and sky light is at least
-  // kLeast of all light from it. Sunlit blinds beside a pane are as bright as the sky on its other side, but
-  // little sky is seen through them.
   RSPHERE_TUNED(Openings, double, kBrighter, 1.7);
-  // The fraction below which light is too weak to make an opening: of sky light in all light that arrives
-  // from a side, and of the radiance of an opening in that of the brightest one (portals.cpp). Chosen by
-  // experiment. Paths from the eye find the light of openings that are no portals. Rays to a false opening,
-  // such as a hole in the plane of the desk tops of a classroom, would be lost.
-  RSPHERE_TUNED(Openings, double, kLeast, .2);
+  // Regardless of brightness, one side is the bright side of an opening if two conditions hold: at least
+  // kMoreSky times as much unreflected sky light arrives from it as from the other side, and sky light is at
+  // least kLeastSky of all light from it. Chosen by experiment. Sunlit blinds beside a pane are as bright as
+  // the sky on its other side, but little sky is seen through them.
+  RSPHERE_TUNED(Openings, double, kMoreSky, 3);
+  RSPHERE_TUNED(Openings, double, kLeastSky, .1);
   // A hole is treated as the same opening as another one if both are parallel (cosine of the angle at least
   // kParallel) and the distance between their middles is below kSameHole times the shortest side of both.
   // This finds the two faces of a wall, which are nearer to each other than a door is wide.
@@ -147,6 +132,16 @@ struct SensorNoise {
   // If the rays to be added are fewer than those already sent divided by this, none are added, because so few
   // would be unevenly distributed over the hemisphere.
   static constexpr int kFewestAdded = 8;
+};
+
+// Openings as light sources of paths from both ends (portals.cpp).
+struct Portals {
+  // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the
+  // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
+  // classroom, would be lost.
+  RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
+  // The fraction of the rays for the light of portals that are aimed at them.
+  RSPHERE_TUNED(Portals, double, kAimed, .75);
 };
 
 // The control variate of sphere mode (radiance_guess.cpp).
@@ -177,8 +172,7 @@ struct GatherDirections {
   //   value   variance x time in the four rooms
   //   .5      1.3  .9   1    1
   //   .3      7.8  2.4  1.1  1.2
-  // For spots, the results from .5 to .9 do not differ beyond noise. It is also the fraction of the rays for
-  // the light of portals that are aimed at them (portals.cpp).
+  // For spots, the results from .5 to .9 do not differ beyond noise.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
   // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
   // near openings, where rooms are brighter than farther inside. Measured:
@@ -297,8 +291,18 @@ struct VertexLight {
 
 // Limits on the number of rays into which a ray splits (ray_limits.h).
 struct RayLimits {
-  // Limit on the descendants of a ray of a gather: see Caps::kAimed.
-  static inline const double kMostDescendants = static_cast<double>(Caps::kAimed);
+  // If a ray of a gather has more than this number of descendants, further ones of low weight are subject to
+  // Russian roulette. The ancestors of a further descendant are not counted. For a primary ray of sphere
+  // mode, the limit is this number times -ad plus -as. Measured: 99% of the directions in a room with a
+  // chrome column have fewer descendants (-ab 6, -ad 4); those in a closed metal cylinder have up to 1000.
+  //
+  // Sharp paths of a gather's ray are subject to Russian roulette if their weight is below the inverse of
+  // this; the probability of survival is proportional to their weight. Gathers start with a weight of 1/2, so
+  // that a ray has on average at most half this number of descendants at a time. Without a limit, that number
+  // doubles at each surface of nested transparent objects, up to -lr. With 32, three nested cylinders that
+  // reflect and transmit a tenth take a fifth less time, but there is more noise behind a pane that transmits
+  // 5%.
+  RSPHERE_TUNED(RayLimits, double, kMostDescendants, 64);
   // The number of rays into which a ray may split regardless of weight: derived. A surface that it hits may
   // reflect one and transmit one. It is used for
   // - the descendants of each ray of a patch of the coarse solution, on average. Measured: without a limit,
