@@ -270,7 +270,8 @@ py::object glare(const py::object& self, const py::object& eyes, const py::objec
 }
 
 py::object contributions(const py::object& self, const py::object& given, const py::object& of,
-                         const py::object& bins, int samples, bool coefficients, const py::kwargs& keywords) {
+                         const py::object& bins, const py::object& samples, const py::object& coefficients,
+                         const py::kwargs& keywords) {
   const Scene& scene = sceneOf(self);
   const Numbers array =
       numbersOf(required(given, "contributions() needs rays: an array of shape (n, 6)"), "rays");
@@ -283,8 +284,8 @@ py::object contributions(const py::object& self, const py::object& given, const 
   ContributionOptions options;
   static_cast<Options&>(options) = optionsOf(keywords);
   options.bins = binsOf(bins);
-  options.samples = samples;
-  options.coefficients = coefficients;
+  options.samples = wholeNumberOf(samples, "samples");
+  options.coefficients = truthOf(coefficients, "coefficients");
   options.stop = interrupted;
   Contributions a = withoutLock(options, [&] { return scene.contributions(rays, modifiers, options); });
   py::dict arrays;
@@ -303,11 +304,15 @@ py::object zoneMiddlesOf(size_t count) {
   return arrayOf(std::move(directions), count);
 }
 
-std::unique_ptr<Scene> readScene(const py::object& files, bool commands,
-                                 const std::vector<std::string>& goals) {
+std::unique_ptr<Scene> readScene(const py::object& files, const py::args& more, const py::object& commands,
+                                 const py::object& goals) {
+  if (!more.empty())
+    throw py::type_error("Scene() takes several files as one list: Scene([\"sky.rad\", \"room.rad\"])");
+  required(files, "Scene() needs files: one octree, scene files, or '!command'; one path or a list");
+  if (!areNames(goals, "goals")) throw py::type_error("goals must be a list of modifiers: [\"desk\"]");
   SceneOptions options;
-  options.commands = commands;
-  options.goals = goals;
+  options.commands = truthOf(commands, "commands");
+  options.goals = goals.cast<std::vector<std::string>>();
   const std::vector<std::string> paths = pathsOf(files);
   return withoutLock(options, [&] { return std::make_unique<Scene>(paths, options); });
 }
@@ -459,7 +464,7 @@ PYBIND11_MODULE(rsphere, m) {
                     glareText = std::string(kGlare) + kOptions,
                     contributionsText = std::string(kContributions) + kOptions;
   py::class_<Scene>(m, "Scene", kScene)
-      .def(py::init(&readScene), py::arg("files"), py::kw_only(), py::arg("commands") = true,
+      .def(py::init(&readScene), py::arg("files") = py::none(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>())
       .def("trace", &trace, py::arg("rays") = py::none(), traceText.c_str())
       .def("sphere", &sphere, py::arg("points") = py::none(), sphereText.c_str())

@@ -21,6 +21,7 @@ struct Keyword {
   void set(std::string_view member, Member& to, const char* option = "") {
     if (name != member) return;
     known = true;
+    if (value.is_none()) return;
     if (all.contains(option) || all.contains(std::string(option) + '_'))
       throw py::type_error(std::string(name) + " and " + option + " are the same option: give one of them");
     try {
@@ -70,7 +71,6 @@ Options optionsOf(const py::kwargs& keywords) {
   Options options;
   std::vector<std::string> further;
   for (const auto& [name, value] : keywords) {
-    if (value.is_none()) continue;
     const auto text = name.cast<std::string>();
     Keyword keyword{text, value, keywords};
     keyword.set("ambient_bounces", options.ambientBounces, "ab");
@@ -97,7 +97,8 @@ Options optionsOf(const py::kwargs& keywords) {
     keyword.set("arguments", options.arguments);
     if (!keyword.known && isNoOption(text))
       throw py::type_error("'" + text + "' is not an option; help(rsphere.Scene) lists the options");
-    if (!keyword.known) addWords(further, text, py::reinterpret_borrow<py::object>(value));
+    if (!keyword.known && !value.is_none())
+      addWords(further, text, py::reinterpret_borrow<py::object>(value));
   }
   options.arguments.insert(options.arguments.begin(), further.begin(), further.end());
   return options;
@@ -110,6 +111,23 @@ std::vector<std::string> pathsOf(const py::object& files) {
   std::vector<std::string> paths;
   for (const py::handle& file : files) paths.push_back(path(file));
   return paths;
+}
+
+int wholeNumberOf(const py::object& given, const std::string& argument) {
+  try {
+    if (!py::isinstance<py::bool_>(given)) return given.cast<int>();
+  } catch (const py::cast_error&) {
+  }
+  throw py::type_error(argument + " must be a whole number below 2147483648, not " +
+                       std::string(py::repr(given)));
+}
+
+bool truthOf(const py::object& given, const std::string& argument) {
+  try {
+    if (!given.is_none()) return given.cast<bool>();
+  } catch (const py::cast_error&) {
+  }
+  throw py::type_error(argument + " must be True or False, not " + std::string(py::repr(given)));
 }
 
 Bins binsOf(const py::object& given) {

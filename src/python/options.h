@@ -20,6 +20,11 @@ Options optionsOf(const pybind11::kwargs& keywords);
 // One or more paths (str, bytes or os.PathLike) in the system's encoding. Throws pybind11::type_error.
 std::vector<std::string> pathsOf(const pybind11::object& files);
 
+// The value of an argument that is a whole number, or True or False. Throws pybind11::type_error with the
+// name of the argument for anything else.
+int wholeNumberOf(const pybind11::object& given, const std::string& argument);
+bool truthOf(const pybind11::object& given, const std::string& argument);
+
 // The bins given by a number of zones, or by a dict with the members of Bins.
 Bins binsOf(const pybind11::object& given);
 
