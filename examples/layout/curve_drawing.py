@@ -19,7 +19,8 @@ def curve_drawing(curves):
         return BOTTOM - (BOTTOM - TOP) * watts / most
 
     def text(at_x, at_y, words, anchor):
-        return f'<text x="{at_x:.1f}" y="{at_y:.1f}" text-anchor="{anchor}">{html.escape(words)}</text>\n'
+        return (f'<text x="{at_x:.1f}" y="{at_y:.1f}" text-anchor="{anchor}" stroke="white" stroke-width="3" stroke-linejoin="round" '
+                f'paint-order="stroke">{html.escape(words)}</text>\n')
 
     svg = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 360" font-family="sans-serif" font-size="12">\n'
            '<rect width="640" height="360" fill="white"/>\n'

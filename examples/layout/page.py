@@ -22,6 +22,20 @@ def label(text, size, across, down, anchor="start", color="#222"):
     return f'<text x="{across:.1f}" y="{down:.1f}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{escape(text)}</text>'
 
 
+def free_corner(corners, words, taken):
+    """Where the name of a surface is written: at that of its corners where luminaires are farthest from the words; the lower left one
+    if none is near. taken: rectangles (left, top, right, bottom)."""
+    (left, top), (right, bottom), width = corners.min(axis=0), corners.max(axis=0), 6.2 * len(words)
+    places = [(x, y) for y in (bottom - 4, top + 12) for x in (left + 4, max(left + 4, right - 2 - width))]
+
+    def clearance(place):
+        x, y = place
+        gaps = (np.hypot(max(l - x - width, x - r, 0), max(t - y, y - 9 - b, 0)) for l, t, r, b in taken)
+        return min(8, min(gaps, default=8))
+
+    return max(places, key=clearance)
+
+
 def shape(corners, style):
     return f'<path d="M{"L".join(f"{x:.1f} {y:.1f}" for x, y in corners)}Z" {style}/>'
 
@@ -42,6 +56,8 @@ def drawing(design, polygons, candidates, chosen, levels, title):
     scale = 660 / max(high[0] - low[0], 1e-9)
     height = (high[1] - low[1]) * scale
     to = lambda p: np.stack([(p[..., 0] - low[0]) * scale + 20, height - (p[..., 1] - low[1]) * scale + 40], axis=-1)  # noqa: E731
+    outlines = [to(outline(design, candidates[j])) for j in chosen]
+    taken = [(*(c.min(axis=0) - (0, 8)), *(c.max(axis=0) + (10, 0))) for c in outlines]  # a small one has its number at its upper right
     parts, names = [label(title, 15, 20, 24), shape(to(room.corners), 'fill="#f6f4ef" stroke="#555" stroke-width="2"')], []
     for surface in sorted(design.surfaces.values(), key=lambda s: -s.area):  # small ones on top
         for p in surface.polygons:
@@ -50,9 +66,9 @@ def drawing(design, polygons, candidates, chosen, levels, title):
             large = abs(p.vector()[2]) > 0.5 * abs(room.vector()[2])
             style = 'fill="none" stroke="#5a8a63" stroke-dasharray="6 4"' if large else 'fill="#cfe3d2" stroke="#5a8a63"'
             parts.append(shape(corners, style))
-        size, (x, y) = np.ptp(corners, axis=0), [corners[:, 0].min(), corners[:, 1].max()]
+        size = np.ptp(corners, axis=0)
         if size[0] > 6.2 * len(surface.name) and size[1] > 16:
-            names.append(label(surface.name, 10, x + 4, y - 4, color="#3a6343"))
+            names.append(label(surface.name, 10, *free_corner(corners, surface.name, taken), color="#3a6343"))
     for x, y in to(np.unique(np.round([c.position for c in candidates], 6), axis=0)):
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.3" fill="#999"/>')
     for eye in design.eyes.values():
@@ -65,9 +81,8 @@ def drawing(design, polygons, candidates, chosen, levels, title):
         x, y = to(sensor.position)
         parts.append(f'<path d="M{x - 4:.1f} {y:.1f}h8m-4 -4v8" stroke="#3a6343" stroke-width="2"/>')
         names.append(label(sensor.name, 10, x, y + 15, "middle", "#3a6343"))
-    for number, (j, level) in enumerate(zip(chosen, levels), 1):
+    for number, (j, level, corners) in enumerate(zip(chosen, levels, outlines), 1):
         color, photometry = COLORS[candidates[j].luminaire % len(COLORS)], design.luminaires[candidates[j].luminaire].photometry
-        corners = to(outline(design, candidates[j]))
         style = f'fill="{color}" fill-opacity="{0.15 + 0.7 * level:.2f}" stroke="#222"'
         (x, y), half = corners.mean(axis=0), np.ptp(corners, axis=0) / 2
         round_one = photometry.shape != "box" and abs(candidates[j].aim[2]) > 0.999

@@ -10,6 +10,8 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
+import numpy as np
+
 TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LAYOUT = os.path.join(TESTS, "../examples/layout")
 OFFICE = os.path.join(LAYOUT, "cases/office.rad")
@@ -176,6 +178,19 @@ class Goals(unittest.TestCase):
         missed = re.findall(r"^Cannot be met: illuminance (desk[0-9])", run.stdout, re.MULTILINE)
         self.assertEqual(missed, [f"desk{i}" for i in (1, 2, 3, 5, 6, 7, 8)], run.stdout)
         self.assertEqual(run.returncode, 2)
+
+    def test_names_of_desks_keep_clear_of_luminaires(self):
+        """The number of a spot was printed over "desk1" in the drawing."""
+        sys.path.insert(0, LAYOUT)
+        from page import free_corner
+
+        desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
+        self.assertEqual(free_corner(desk, "desk1", []), (94, 246))
+        self.assertEqual(free_corner(desk, "desk1", [(0, 0, 20, 20)]), (94, 246), "far away")
+        x, y = free_corner(desk, "desk1", [(80, 232, 110, 260)])
+        self.assertGreater(x, 120)
+        self.assertEqual(y, 246)
+        self.assertEqual(free_corner(desk, "desk1", [(80, 232, 210, 260)]), (94, 212), "all along the lower edge")
 
     def test_second_goal(self):
         run, _ = self.run_on([*GOOD, "illuminance floor 100", "illuminance floor 200"])
