@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -19,7 +21,8 @@ constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure f
 constexpr double kRelayRounding = 1e-9;
 // For light that has passed more relays than this, only its source and this number of the last relays bound
 // it, because storing all n relays of each image in a chain of n would take memory of order n^2. The bounds
-// become wider, which affects memory and time but no answer. Two facing mirrors with -dr 2000 take 19 MB.
+// become wider, which affects memory and time but no answer. The images of two facing mirrors with -dr 2000
+// take 3 MB.
 constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
@@ -161,7 +164,7 @@ class Images {
     tree_ = RelayTree(bounds);
   }
 
-  // Adds the images of a real source, and recursively their images, in sequences of up to `relays` relays.
+  // Adds the images of a real source, and the images of these, in sequences of up to `relays` relays.
   void addImages(LightId real, int relays) {
     Way way;
     const LightSource& source = sources_[real];
@@ -171,7 +174,13 @@ class Images {
                               {},
                               hullOf(surface.shape, scene_.vertices),
                               planeNormal(surface.shape) != nullptr});
-    addImages(real, std::move(way), relays);
+    std::vector<Pending> pending;
+    addPending(real, std::move(way), relays, pending);
+    while (!pending.empty()) {
+      const Pending next = std::move(pending.back());
+      pending.pop_back();
+      addImage(next, pending);
+    }
   }
 
  private:
@@ -180,15 +189,25 @@ class Images {
     uint32_t relay;
     std::vector<V3d> part;
   };
+  // An image that is still to be made. The last one is made first, with all images of itself, so that in a
+  // long sequence of relays only the way to the last image is in memory.
+  struct Pending {
+    LightId source;
+    std::shared_ptr<const Way> way;  // that the light of the source has come
+    Reached reached;
+    int image;
+    int relays;  // how many more there may be in the sequence, this one included
+  };
 
-  void addImages(LightId source, Way way, int relays) {
+  // Appends the images of a source so that the first one is made first.
+  void addPending(LightId source, Way&& way, int relays, std::vector<Pending>& pending) const {
     if (relays <= 0) return;
-    const std::vector<Reached> reached = relaysReached(source, way);
-    // Frees memory that each relay of a long sequence would otherwise hold.
-    std::vector<HalfSpace>().swap(way.lit);
-    for (const Reached& r : reached)
-      for (int image = 0; image < imagesBy(relays_[r.relay]); ++image)
-        addImage(source, way, r, image, relays);
+    std::vector<Reached> reached = relaysReached(source, way);
+    if (reached.empty()) return;
+    const auto passages = std::make_shared<const Way>(Way{std::move(way.passages), {}});
+    for (const Reached& r : reached | std::views::reverse)
+      for (int image = imagesBy(relays_[r.relay]); image-- > 0;)
+        pending.push_back({source, passages, r, image, relays});
   }
 
   // The relays that the light of a source may reach after it has come this way.
@@ -206,7 +225,9 @@ class Images {
     return reached;
   }
 
-  void addImage(LightId source, const Way& way, const Reached& reached, int image, int relays) {
+  void addImage(const Pending& wanted, std::vector<Pending>& pending) {
+    const auto& [source, before, reached, image, relays] = wanted;
+    const Way& way = *before;
     const Relay& relay = relays_[reached.relay];
     const auto projection = project(sources_[source], way, relay, image);
     if (!projection) return;
@@ -221,7 +242,7 @@ class Images {
     sources_.push_back(std::move(made));
     const auto [away, offset] = sideLit(sources_.last());
     through.lit.push_back({away, offset});
-    addImages(sources_.last(), std::move(through), relays - 1);
+    addPending(sources_.last(), std::move(through), relays - 1, pending);
   }
 
   void addRelay(SurfaceId index, const rad::Warn& warn) {
