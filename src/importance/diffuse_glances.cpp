@@ -62,7 +62,7 @@ class DiffuseGlances::Joins {
  public:
   Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
       : vertices_(vertices), point_(point), density_(glances / (4 * kPi)) {
-    const double radius = tuning::DiffuseGlances::kJoinRadius * vertices.nearLight().meanLength;
+    const double radius = tuning::LightVertices::kWidth * vertices.nearLight().meanLength;
     radius2_ = radius * radius;
     const auto& visible = vertices.visible().all();
     shown_.resize(visible.size());

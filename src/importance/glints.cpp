@@ -63,7 +63,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
       [&](const DistantLight& cone) { setRound(away.normalized(), cone.sinHalfAngle); });
   const auto divided = [&](const V3d& half) {
     if (source.isDistant()) return 1;
-    return static_cast<int>(std::min(std::ceil(half.length() / (tuning::Glints::kHalfPart * distance)),
+    return static_cast<int>(std::min(std::ceil(half.length() / (tuning::Highlights::kHalf * distance)),
                                      static_cast<double>(tuning::Silhouettes::kCorners)));
   };
   const int columns = divided(u), rows = divided(v);

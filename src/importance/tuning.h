@@ -54,11 +54,8 @@ struct DiffuseGlances {
   // for the light paths of all pools together (about 400 MB).
   static constexpr size_t kMost = 1 << 20;
   // Joins for each base direction. With 4, the error is 5% larger and the time 2% shorter. With 16, no effect
-  // beyond noise.
+  // beyond noise. Distances below LightVertices::kWidth hardly increase the number of joins.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 8);
-  // Distances below this fraction of the mean length of light paths hardly increase the number of joins. With
-  // .1 or .3, no effect beyond noise.
-  RSPHERE_TUNED(DiffuseGlances, double, kJoinRadius, .17);
   // The number of pools of light vertices with -Sa and -Su. Sets of directions use them in turn, so that
   // averaging sets also averages the error due to the vertices. It is also the number of sets after which -Sa
   // stops at a dark point: each pool has then been used once. In a closed metal column, these sets take 7 s
@@ -118,26 +115,14 @@ struct CellsInTargets {
   RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
 };
 
-// Images of light sources in mirroring balls (glints.cpp).
-struct Glints {
-  // Largest half width of a part of a source, relative to its distance from the ball. Wider sources are
-  // divided, into at most Silhouettes::kCorners parts along each side, because the image of a wide part is
-  // noticeably curved. Chosen by experiment. With .25 (Highlights::kHalf), no effect beyond noise (points
-  // beside chrome; noise: error 1%, time 1%).
-  RSPHERE_TUNED(Glints, double, kHalfPart, .12);
-};
-
 // Light sources that are integrated separately (seen_sources.cpp).
 struct SeenSources {
-  // Cap on the rays to one image: the largest of kUsualRays; one ray for each square of side kSmallestPart
-  // (rad) in the image; and kSmallShare times an even share of all rays to images. Chosen by experiment.
-  // Changing it by 30% has no effect beyond noise (points by sun; noise: error below 1%, time 4%).
-  RSPHERE_TUNED(SeenSources, double, kUsualRays, 16);
-  // Side (rad) of the squares in the cap of kUsualRays. Without them, the error below a luminous ceiling
-  // partly hidden by 36 balls is 2.9% instead of .5% (2048 base directions). Changing it by 30% changes no
-  // answer.
+  // Side (rad) of squares in the image of a source. The cap on the rays to one image is the largest of
+  // kUsualRays, one ray for each square, and kSmallShare times an even share of all rays to images. Without
+  // the squares, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5% (2048
+  // base directions). Changing it by 30% changes no answer.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The fraction of an even share in the cap of kUsualRays. With it, the error for a small half-hidden lamp
+  // The fraction of an even share in that cap. With it, the error for a small half-hidden lamp
   // falls from 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
   //
   // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
@@ -157,6 +142,8 @@ struct SeenSources {
   // a partition hides part of the goal. With 2, the error is 3% instead of 1.8%, in the same time. With 8, no
   // effect beyond noise.
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
+  // The cap on the rays to a small image of a source, as many as the shadow rays of one cell.
+  static inline const double kUsualRays = static_cast<double>(kShadowsAlong * kShadowsAlong);
 };
 
 // Regions of directions used in place of exact silhouettes (silhouette.cpp, silhouette_index.cpp).
@@ -251,8 +238,8 @@ struct Dark {
 
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
-  // Height of a fisheye in pixels; it has about half a million pixels in all. The number does not trade error
-  // for time, and tests/bench/sensitivity draws smaller pictures.
+  // Height of a fisheye in pixels: the least that evalglare(1) of RADIANCE recommends. It is not tuned;
+  // tests/bench/sensitivity draws smaller pictures.
   RSPHERE_TUNED(Pictures, int, kFisheyeSide, 800);
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of

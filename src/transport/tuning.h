@@ -207,7 +207,8 @@ struct Highlights {
   // office; noise: error below 1%, time 6%).
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
-  // wider part would be noticeably curved. Derived: see SourceParts::kNear.
+  // wider part would be noticeably curved. Also for the parts of sources whose images in mirroring balls are
+  // targets (importance/glints.h). Derived: see SourceParts::kNear.
   static constexpr double kHalf = SourceParts::kNear / 2;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region around the image of a source in a mirroring ball (importance/glints.h) to that image.
@@ -240,7 +241,8 @@ struct Interpolation {
 // the rms error of answers.
 struct LightVertices {
   // Distance at which rays towards near surfaces estimate half of the light between diffuse surfaces
-  // (NearLight::share()). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no
+  // (NearLight::share()). Joins of a point with light paths hardly increase in number below it
+  // (DiffuseGlances). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no
   // effect beyond noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
   // Distance between diffuse surfaces at which those rays leave half of their light to joins with the eye
