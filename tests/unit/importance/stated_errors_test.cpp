@@ -74,7 +74,7 @@ TEST(StatedErrors, HoldInTheTails) {
   const Desk desk;
   const V3d points[] = {V3d(2.8, 1.2, 1.2), V3d(3.9, 1.9, 1.1), V3d(2.2, .8, .4)};
   std::vector<std::vector<PointAnswer>> answers(std::size(points));
-  for (uint64_t rotation = 1; rotation <= 50; ++rotation) {
+  for (uint64_t rotation = 1; rotation <= 30; ++rotation) {
     SphereOptions o = desk.options.sphere;
     o.baseDirections = 64;
     o.rotation = rotation;
@@ -175,7 +175,7 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
           [](RayOptions& o) { o.ambientBounces = 2; })};
   const V3d points[] = {V3d(1.5, 1, 1.2), V3d(.5, 3, 1.2), V3d(2.5, 4.5, 2), V3d(1, .5, .5)};
   for (const SphereSetting& room : rooms) {
-    const auto answers = answersOf(room, points, 256, 100);
+    const auto answers = answersOf(room, points, 256, 40);
     const Honesty honest = honestyOf(answers, 1), spoiled = honestyOf(answers, .5);
     EXPECT_GT(honest.trueOverStated, .7);
     EXPECT_LT(honest.trueOverStated, 1.35);
