@@ -400,6 +400,8 @@ void checkTogether(Options& options, bool mostGiven) {
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;
   if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
+  if (options.listSpecial && !options.picture.empty())
+    commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");
   SphereOptions& sphere = options.sphere;
   if (sphere.accuracy >= 1) commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
   if (sphere.clamp > 0 && sphere.weights != Weights::silhouettes)
