@@ -154,7 +154,8 @@ double trueOverStated(const Answers& answers, int zones = kZones,
   return std::sqrt(squares / stated);
 }
 
-// Within a factor of 2 or 4, on average over all zones; errors that are eight times as small or as large are rejected.
+// Within a factor of 2 or 4, on average over all zones. Errors that are eight times as small or as large are
+// rejected.
 bool isHonest(double found) { return found > .25 && found < 2; }
 void expectHonest(double found) {
   EXPECT_TRUE(isHonest(found)) << found;
