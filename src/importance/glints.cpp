@@ -107,7 +107,7 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
     : prepared_(prepared),
       balls_(ballsAmong(prepared.scene(), objects)),
-      hidden_(prepared.scene(), prepared.tracer(), boxesOf(balls_), kFewHidden) {
+      hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_), kFewHidden) {
   const Scene& scene = prepared.scene();
   const auto& all = prepared.lights().all();
   lights_.resize(all.size());

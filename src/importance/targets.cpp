@@ -116,7 +116,7 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
       sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(measureContrasts(tracing, objects, sources)),
-      hidden_(prepared_.scene(), prepared_.tracer(), boxesOf(prepared_.scene(), contrasts_), kFewHidden),
+      hidden_(prepared_.lights().hidden().blockers(), boxesOf(prepared_.scene(), contrasts_), kFewHidden),
       glints_(tracing.prepared, objects) {
   const Openings* const openings = tracing.aims.openings;
   radiances_.resize(contrasts_.objects.size());

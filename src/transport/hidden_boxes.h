@@ -2,33 +2,29 @@
 // Finds boxes that are certainly hidden from a place, such as the luminaires on all other storeys of a
 // building.
 //
-// A box is hidden from another if a single opaque convex polygon (a slab, a wall) intersects every segment
-// between them. It is enough to test the segments between their corners: the convex hull of the points where
-// these intersect the polygon's plane contains the intersections of all segments ("shaft culling", Haines and
-// Wallace 1991). A light source in a hidden box need not be sampled, since every shadow ray would be blocked.
+// A box is hidden from another if an opaque slab or wall intersects every segment between them (blockers.h).
+// A light source in a hidden box need not be sampled, since every shadow ray would be blocked.
 //
 // The scene is divided into regions along the planes of such polygons (cells: Teller and Sequin 1991). A
 // region is divided when a point in it is first looked up, and only if that saves time. The result depends
 // only on the scene and the boxes.
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
-#include "trace/tracer.h"
+#include "transport/blockers.h"
+#include "transport/box_tree.h"
 #include "transport/function_ref.h"
 
 namespace rsphere {
 
 class HiddenBoxes {
  public:
-  // Keeps references to the scene and the tracer. boxes: fewer than 2^32; empty boxes are never hidden. few:
-  // up to this number of boxes, all are treated as visible, because finding hidden ones would take more time
-  // than it saves.
-  HiddenBoxes(const Scene& scene, const Tracer& tracer, std::vector<Box3d> boxes, size_t few);
+  // boxes: fewer than 2^32; empty boxes are never hidden. few: up to this number of boxes, all are treated as
+  // visible, because finding hidden ones would take more time than it saves.
+  HiddenBoxes(std::shared_ptr<const Blockers> blockers, std::vector<Box3d> boxes, size_t few);
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
 
@@ -52,45 +48,22 @@ class HiddenBoxes {
   // Whether the scene may be divided into regions, so that some boxes may be hidden.
   bool divides() const;
 
-  // Whether a polygon hides everything in box `to` from everything in box `from`.
-  bool hides(const Box3d& from, const Box3d& to) const;
+  // What hides the boxes, for more boxes of the same scene.
+  const std::shared_ptr<const Blockers>& blockers() const { return blockers_; }
 
  private:
-  // An opaque polygon, with the inward normals of its edges in its plane.
-  struct Blocker;
   struct Region;
 
   V3d beside(const V3d& point, const V3d& front) const;
   std::span<const uint32_t> find(const V3d& point) const;
   const Region& half(const Region& region, int upper) const;
   void divide(Region& region) const;
-  bool anyBlocker(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const;
   std::vector<std::pair<Blocker, size_t>> blockersIn(const Region& region) const;
-  bool findBlocker(SurfaceId surface, const V3d& from, Blocker& blocker) const;
-  bool covers(const Blocker& blocker, const Box3d& from, const Box3d& to) const;
-  bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known) const;
   std::vector<uint32_t> visibleFrom(const Box3d& region, std::span<const uint32_t> places,
                                     std::vector<Blocker>& known) const;
 
-  // A binary tree of the boxes that may be hidden. A node contains the boxes order[begin] to order[end - 1].
-  struct Tree {
-    struct Node {
-      Box3d box;
-      size_t begin, end;
-      size_t second;  // index of the second child; the first child follows the node. 0: a leaf
-    };
-    std::vector<Box3d> boxes;     // all boxes, including empty ones
-    std::vector<uint32_t> order;  // indices of the boxes in spatial order
-    std::vector<Node> nodes;
-
-    const Box3d& boxOf(size_t place) const { return boxes[order[place]]; }
-    size_t makeNode(size_t begin, size_t end);
-  };
-
-  const Scene& scene_;
-  const Tracer& tracer_;
-  double margin_ = 0;  // distance of regions from the planes that divide them (world units)
-  Tree tree_;
+  std::shared_ptr<const Blockers> blockers_;
+  BoxTree tree_;
   std::vector<uint32_t> all_;     // indices of all boxes
   std::vector<uint32_t> never_;   // indices of the empty boxes
   std::unique_ptr<Region> root_;  // null if there are too few boxes

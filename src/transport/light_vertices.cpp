@@ -412,7 +412,7 @@ void VisibleVertices::sort(const PreparedScene& prepared) {
   if (!prepared.lights().hidden().divides()) return;
   std::vector<Box3d> boxes((all_.size() + kBlock - 1) / kBlock);
   for (size_t i = 0; i < all_.size(); ++i) boxes[i / kBlock].extendBy(all_[i].vertex.point());
-  hidden_.emplace(prepared.scene(), prepared.tracer(), std::move(boxes), 0);
+  hidden_.emplace(prepared.lights().hidden().blockers(), std::move(boxes), 0);
 }
 
 void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const {

@@ -82,7 +82,7 @@ SceneLights::SceneLights(const Scene& scene, const Tracer& tracer, const Surface
     : LightSources(scene, relays, functions, warn),
       presumedShadows_(scene, tracer, *this),
       choice_(scene, *this),
-      hidden_(scene, tracer, boxesOf(scene, *this), kFewSources),
+      hidden_(std::make_shared<const Blockers>(scene, tracer), boxesOf(scene, *this), kFewSources),
       ofMists_(scene, *this, warn),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(all().size());

@@ -29,7 +29,7 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
 // other.
 std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
   if (!prepared.lights().hidden().divides()) return {};
-  return HiddenBoxes(prepared.scene(), prepared.tracer(),
+  return HiddenBoxes(prepared.lights().hidden().blockers(),
                      VertexClusters::boxesOf(vertices.all(), vertices.clusterEnds()), 0);
 }
 

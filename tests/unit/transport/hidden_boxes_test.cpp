@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <thread>
 
@@ -16,15 +17,76 @@ namespace {
 constexpr int kStoreys = 6;
 constexpr double kStorey = 3.2;
 
+// A rectangle of 4 x 3 m at this height, or one of its pieces in a form of its own.
+using Slab = std::function<std::string(const std::string& material, double z, bool up)>;
+
+std::string polygonOf(const std::string& material, std::vector<V3d> corners, bool up) {
+  if (!up) std::reverse(corners.begin(), corners.end());
+  std::string text = fmt::format("{} polygon slab 0 0 {}", material, 3 * corners.size());
+  for (const V3d& c : corners) text += fmt::format(" {} {} {}", c.x, c.y, c.z);
+  return text + "\n";
+}
+
+std::string rectangle(const std::string& material, double x0, double y0, double x1, double y1, double z,
+                      bool up) {
+  return polygonOf(material, {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}, up);
+}
+
+std::string whole(const std::string& material, double z, bool up) {
+  return rectangle(material, 0, 0, 4, 3, z, up);
+}
+
+// Tiles in rows; every second row is displaced by half a tile.
+std::string tiles(const std::string& material, double z, bool up) {
+  std::string text;
+  for (int row = 0; row < 7; ++row)
+    for (double x = row % 2 ? -.3 : 0; x < 4; x += .6)
+      text +=
+          rectangle(material, std::max(0., x), 3. * row / 7, std::min(4., x + .6), 3. * (row + 1) / 7, z, up);
+  return text;
+}
+
+std::string triangles(const std::string& material, double z, bool up) {
+  return polygonOf(material, {{0, 0, z}, {4, 0, z}, {2.1, 1.7, z}}, up) +
+         polygonOf(material, {{4, 0, z}, {4, 3, z}, {2.1, 1.7, z}}, !up) +  // the others' backs
+         polygonOf(material, {{4, 3, z}, {0, 3, z}, {2.1, 1.7, z}}, up) +
+         polygonOf(material, {{0, 3, z}, {0, 0, z}, {2.1, 1.7, z}}, up);
+}
+
+std::string overlapping(const std::string& material, double z, bool up) {
+  return rectangle(material, 0, 0, 2.5, 3, z, up) + rectangle(material, 1.5, 0, 4, 3, z, up);
+}
+
+// Four pieces around a stairwell in a corner.
+std::string aroundStairs(const std::string& material, double z, bool up) {
+  return rectangle(material, 0, 0, 4, 2, z, up) + rectangle(material, 0, 2, 3.2, 3, z, up) +
+         rectangle(material, 3.2, 2.8, 4, 3, z, up) + rectangle(material, 3.9, 2, 4, 2.8, z, up);
+}
+
+// The same as one polygon with a seam.
+std::string seamed(const std::string& material, double z, bool up) {
+  return polygonOf(material,
+                   {{0, 0, z},
+                    {4, 0, z},
+                    {4, 3, z},
+                    {0, 3, z},
+                    {0, 0, z},
+                    {3.2, 2, z},
+                    {3.2, 2.8, z},
+                    {3.9, 2.8, z},
+                    {3.9, 2, z},
+                    {3.2, 2, z}},
+                   up);
+}
+
 // Rooms of 4 x 3 x 3 m above one another, with slabs of .2 m.
-std::string storeys(const std::string& slab) {
+std::string storeys(const std::string& material, const Slab& slab = whole) {
   std::string text =
       "void plastic wall 0 0 5 .6 .6 .6 0 0\nvoid glass pane 0 0 3 .9 .9 .9\n"
       "void dielectric water 0 0 5 .9 .9 .9 1.33 0\nvoid trans cloth 0 0 7 .5 .5 .5 0 0 .5 0\n";
   for (int k = 0; k < kStoreys; ++k) {
     const double low = kStorey * k, high = low + 3;
-    text += fmt::format("{0} polygon floor 0 0 12 0 0 {1} 4 0 {1} 4 3 {1} 0 3 {1}\n", slab, low);
-    text += fmt::format("{0} polygon ceiling 0 0 12 0 0 {1} 0 3 {1} 4 3 {1} 4 0 {1}\n", slab, high);
+    text += slab(material, low, true) + slab(material, high, false);
     text += fmt::format("wall polygon south 0 0 12 0 0 {0} 0 0 {1} 4 0 {1} 4 0 {0}\n", low, high);
     text += fmt::format("wall polygon north 0 0 12 0 3 {0} 4 3 {0} 4 3 {1} 0 3 {1}\n", low, high);
     text += fmt::format("wall polygon west 0 0 12 0 0 {0} 0 3 {0} 0 3 {1} 0 0 {1}\n", low, high);
@@ -51,7 +113,12 @@ struct Building {
   explicit Building(const std::string& text) : scene(sceneOf(text)), tracer(scene, true) {}
   Scene scene;
   Tracer tracer;
-  HiddenBoxes hidden{scene, tracer, lamps(), 8};
+  HiddenBoxes hidden{std::make_shared<const Blockers>(scene, tracer), lamps(), 8};
+
+  bool hides(const Box3d& from, const Box3d& to) const {
+    std::vector<Blocker> known;
+    return hidden.blockers()->hides(from, to, known, true);
+  }
 };
 
 V3d placeIn(const Box3d& box, Random& random) {
@@ -131,14 +198,37 @@ TEST(HiddenBoxes, AHoleLetsLightPass) {
   const std::string twice = "wall polygon s 0 0 24 0 0 3 4 0 3 4 3 3 0 3 3 0 0 3 4 0 3 4 3 3 0 3 3\n";
   const std::string material = "void plastic wall 0 0 5 .6 .6 .6 0 0\n";
   const Box3d below({.5, .5, 0}, {3.5, 2.5, 2}), above({.5, .5, 4}, {3.5, 2.5, 6});
-  EXPECT_TRUE(Building(material + whole).hidden.hides(below, above));
-  EXPECT_TRUE(Building(material + whole).hidden.hides(above, below));
-  EXPECT_FALSE(Building(material + seamed).hidden.hides(below, above));
-  EXPECT_FALSE(Building(material + twice).hidden.hides(below, above));
+  EXPECT_TRUE(Building(material + whole).hides(below, above));
+  EXPECT_TRUE(Building(material + whole).hides(above, below));
+  EXPECT_FALSE(Building(material + seamed).hides(below, above));
+  EXPECT_FALSE(Building(material + twice).hides(below, above));
   const Box3d beside({.5, .5, 4}, {4.5, 2.5, 6});
-  EXPECT_FALSE(Building(material + whole).hidden.hides(below, beside));
+  EXPECT_FALSE(Building(material + whole).hides(below, beside));
   const Box3d through({.5, .5, 2.9}, {3.5, 2.5, 6});
-  EXPECT_FALSE(Building(material + whole).hidden.hides(below, through));
+  EXPECT_FALSE(Building(material + whole).hides(below, through));
+}
+
+// Slabs of several polygons hide as much as whole ones.
+TEST(HiddenBoxes, PiecesOfASlabHideAsOne) {
+  for (const Slab slab : {tiles, triangles, overlapping}) {
+    const Building b(storeys("wall", slab));
+    const Count all = count(b);
+    EXPECT_EQ(all.arrived, 0);
+    EXPECT_GT(all.hidden, 400 * .9 * (kStoreys - 1) * kLamps);
+    for (int k = 0; k < kStoreys; ++k)
+      EXPECT_LE(b.hidden.notHiddenFrom({3, 1.5, kStorey * k + 1.2}).size(), kLamps + kFewMore)
+          << "storey " << k;
+  }
+}
+
+// Through stairwells, some lamps of other storeys are seen.
+TEST(HiddenBoxes, SlabsWithAHoleHideTheRest) {
+  for (const Slab slab : {aroundStairs, seamed}) {
+    const Building b(storeys("wall", slab));
+    const Count all = count(b);
+    EXPECT_EQ(all.arrived, 0);
+    EXPECT_GT(all.hidden, 400 * .5 * (kStoreys - 1) * kLamps);
+  }
 }
 
 // Whatever was asked before, and in how many threads.

@@ -1,0 +1,74 @@
+#pragma once
+// Opaque polygons that hide one box from another. See hidden_boxes.h.
+//
+// A polygon hides a box from another if it intersects every segment between them. It is enough to test the
+// segments between their corners: the convex hull of the points where these intersect the polygon's plane
+// contains the intersections of all segments ("shaft culling", Haines and Wallace 1991). Polygons of one
+// plane that touch count as one.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trace/tracer.h"
+#include "transport/function_ref.h"
+#include "transport/joined_polygons.h"
+
+namespace rsphere {
+
+// A convex polygon, with the inward normals of its edges in its plane, or an area of several polygons.
+struct Blocker {
+  // Polygons with more vertices are rarely convex. They are only treated as part of an area.
+  static constexpr uint32_t kMostVertices = 8;
+
+  SurfaceId surface;
+  V3d normal{0, 0, 0};  // unit, towards the side from which a ray hit it
+  double offset = 0;
+  double size = 0;  // half the sum of its extents along two axes
+  Box3d box{};
+  // Null: the polygon alone, or its area has not been looked up yet (see areaIsKnown).
+  mutable const JoinedPolygons::Area* area = nullptr;
+  mutable bool areaIsKnown = false;
+  uint32_t edges = 0;  // 0: only the area hides boxes
+  std::array<V3d, kMostVertices> inward{};
+  std::array<double, kMostVertices> least{};  // of each edge: inward . p for its points p
+
+  // The axis that is perpendicular to the polygon's plane; -1 if none.
+  int axis() const;
+  bool isSameAs(const Blocker& other) const {
+    return area ? area == other.area : !other.area && surface == other.surface;
+  }
+};
+
+class Blockers {
+ public:
+  // Keeps references to the scene and the tracer.
+  Blockers(const Scene& scene, const Tracer& tracer);
+
+  // Points at most kBeside times margin() from a blocker that is perpendicular to an axis may be treated as
+  // being that far in front of it: see covers(). margin: world units.
+  static constexpr double kBeside = 2.25;
+  double margin() const { return margin_; }
+  const Box3d& bounds() const { return tracer_.bounds(); }
+
+  // Whether a blocker hides everything in box `to` from everything in box `from`. known: blockers that were
+  // found for nearby boxes. The first of them was the last one that hid a box.
+  // fromBothEnds: if holes let light pass the first surfaces on the way, the last ones are examined too. In a
+  // tall building with holes in its slabs, often only the last slab hides a box.
+  bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known, bool fromBothEnds) const;
+
+  // Calls use() with each blocker on the way between two points until use() returns true. Returns whether it
+  // has returned true.
+  bool anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const;
+
+ private:
+  bool find(SurfaceId surface, const V3d& from, bool withArea, Blocker& blocker) const;
+  const JoinedPolygons::Area* areaOf(const Blocker& blocker) const;
+  bool covers(const Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const;
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  double margin_ = 0;
+  JoinedPolygons joined_;
+};
+
+}  // namespace rsphere
