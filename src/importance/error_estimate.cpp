@@ -12,33 +12,46 @@ namespace {
 // The part of a direction's radiance that glances do not estimate.
 Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
 
-// Each value minus the mean of its neighbours' values.
+// Each value minus the mean of the values around it.
 struct Differences {
-  std::vector<Radiance> values;  // 0 where there is no neighbour
-  std::vector<int> neighbours;   // number of neighbours that were used
+  std::vector<Radiance> values;  // 0 where no value is compared
+  std::vector<double> around;    // number of values that each is compared with
 };
 
-// values: of the samples. Only neighbours in the same region are used; if there are none, all except those in
-// kNoRegion.
+struct SumOfSome {
+  Radiance sum;
+  double count = 0;
+
+  void add(const Radiance& value) {
+    sum += value;
+    ++count;
+  }
+  SumOfSome without(const Radiance& value) const { return {sum - value, count - 1}; }
+};
+
+// values: of the samples. Each is compared with its neighbours in the same region. If there are none, as for
+// a direction that sees the wall between two windows, it is compared with all other values of its region; if
+// it is alone in its region, with all neighbours except those in kNoRegion.
 Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
                         const Neighbours& n) {
   const auto regionOf = [&](size_t i) { return samples[i].region; };
-  Differences result{std::vector<Radiance>(values.size()), std::vector<int>(values.size())};
+  std::map<RegionId, SumOfSome> regions;
+  for (size_t i = 0; i < values.size(); ++i) regions[regionOf(i)].add(values[i]);
+  Differences result{std::vector<Radiance>(values.size()), std::vector<double>(values.size())};
   for (size_t i = 0; i < values.size(); ++i) {
     if (regionOf(i) == kNoRegion) continue;
-    Radiance around, aroundHere;
-    int count = 0, countHere = 0;
+    SumOfSome near, nearInRegion;
     for (uint32_t k = n.first[i]; k < n.first[i + 1]; ++k) {
       const uint32_t other = n.neighbour[k];
       if (regionOf(other) == kNoRegion) continue;
-      around += values[other];
-      ++count;
-      if (regionOf(other) != regionOf(i)) continue;
-      aroundHere += values[other];
-      ++countHere;
+      near.add(values[other]);
+      if (regionOf(other) == regionOf(i)) nearInRegion.add(values[other]);
     }
-    result.neighbours[i] = countHere > 0 ? countHere : count;
-    if (count > 0) result.values[i] = values[i] - (countHere > 0 ? aroundHere / countHere : around / count);
+    SumOfSome around = nearInRegion;
+    if (around.count == 0) around = regions[regionOf(i)].without(values[i]);
+    if (around.count == 0) around = near;
+    result.around[i] = around.count;
+    if (around.count > 0) result.values[i] = values[i] - around.sum / around.count;
   }
   return result;
 }
@@ -123,7 +136,7 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
   const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
   Variance sum;
   for (size_t i = 0; i < samples.size(); ++i) {
-    const double m = once.neighbours[i];
+    const double m = once.around[i];
     if (m == 0) continue;
     const bool second = m >= tuning::ErrorEstimate::kFewestAround, apart = samples[i].region != 0;
     const Variance part =

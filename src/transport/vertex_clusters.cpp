@@ -77,6 +77,12 @@ inline float meanAbove(float height, float half) {
   return above * above / (4 * half) + std::max(height - half, 0.f);
 }
 
+// The square of max(x, 0). With std::max() here, the compiler does not vectorize the loop that calls it.
+inline float squareAbove(float x) {
+  const float above = .5f * (x + std::abs(x));
+  return above * above;
+}
+
 }  // namespace
 
 // Repeatedly halves the cluster with the largest product of power and extent, until the number of clusters is
@@ -122,11 +128,11 @@ VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> verti
 }
 
 VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends,
-                               double width, std::optional<HiddenBoxes> hidden)
+                               double width, bool uneven, std::optional<HiddenBoxes> hidden)
     : vertices_(vertices),
       ends_(ends.begin(), ends.end()),
       hidden_(std::move(hidden)),
-      width2_(width * width) {
+      falloff_{width * width, uneven ? 1.f : 0.f} {
   Box3d box;
   for (const LightVertex& v : vertices) box.extendBy(v.point());
   if (!vertices.empty()) middle_ = box.center();
@@ -167,7 +173,7 @@ void VertexClusters::measure(size_t i) {
   for (const LightVertex& v : own) least = std::min(least, axis.dot(v.normal()));
   // Enlarged by the rounding error of single precision, and above 0.
   const V3d half =
-      .5 * box.size() + V3d(kRounding * (std::sqrt(width2_) + box.size().length() + at.length()));
+      .5 * box.size() + V3d(kRounding * (std::sqrt(falloff_.width2) + box.size().length() + at.length()));
   boxes_.center.set(i, at);
   boxes_.half.set(i, half);
   boxes_.spread[i] = static_cast<float>(half.length2() / 3);
@@ -187,7 +193,8 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const auto nx = static_cast<float>(to.normal.x), ny = static_cast<float>(to.normal.y),
              nz = static_cast<float>(to.normal.z);
   const float ax = std::abs(nx), ay = std::abs(ny), az = std::abs(nz);
-  const auto width2 = static_cast<float>(width2_);
+  const auto width2 = static_cast<float>(falloff_.width2);
+  const float byNearest = falloff_.byNearest;
   const auto& [center, half, spread] = boxes_;
   const auto& [axis, halfAlong, sine] = normals_;
   for (size_t i = 0; i < kCount; ++i) {
@@ -196,8 +203,13 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
     const float here = meanAbove(x * nx + y * ny + z * nz, half.x[i] * ax + half.y[i] * ay + half.z[i] * az);
     const float there = meanAbove(-(x * axis.x[i] + y * axis.y[i] + z * axis.z[i]),
                                   halfAlong[i] + sine[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
-    const float away = square + spread[i];
-    weights[i] = power_[i] * (here / away) * (there / (away + width2));
+    const float mean = square + spread[i];
+    // By daylight, clusters are large where patches of sunlight have taken most of them. A large cluster
+    // sends most of its light from where it is nearest.
+    const float nearest = squareAbove(std::abs(x) - half.x[i]) + squareAbove(std::abs(y) - half.y[i]) +
+                          squareAbove(std::abs(z) - half.z[i]);
+    const float away = mean + byNearest * (nearest + width2 - mean);
+    weights[i] = power_[i] * (here / away) * (there / (mean + width2));
   }
   if (!hidden_) return;
   Numbers seen{};
@@ -238,7 +250,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
   for (size_t k = 0; k < drawn.count; ++k) {
     Candidate& candidate = found.all[found.count];
     candidate = drawn.all[k];
-    candidate.weight = weightOf(vertices_[candidate.vertex], to, width2_);
+    candidate.weight = weightOf(vertices_[candidate.vertex], to, falloff_.width2);
     found.count += candidate.weight > 0;
   }
   return found;

@@ -31,9 +31,10 @@ class VertexClusters {
   static std::vector<Box3d> boxesOf(std::span<const LightVertex> vertices, std::span<const uint32_t> ends);
 
   // The vertices must be in the order of orderOf(), with its ends. Keeps the span of vertices. width:
-  // NearLight::width, world units. hidden: made from boxesOf(); empty if little is hidden.
+  // NearLight::width, world units. uneven: as for orderOf(). hidden: made from boxesOf(); empty if little is
+  // hidden.
   VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width,
-                 std::optional<HiddenBoxes> hidden = {});
+                 bool uneven, std::optional<HiddenBoxes> hidden = {});
 
   // The place at which light arrives.
   struct Receiver {
@@ -84,7 +85,10 @@ class VertexClusters {
   std::span<const LightVertex> vertices_;
   std::vector<uint32_t> ends_;
   std::optional<HiddenBoxes> hidden_;
-  double width2_;
+  struct Falloff {
+    double width2;
+    float byNearest;  // 1: clusters are weighed by their nearest place, too; 0: not
+  } falloff_;
   V3d middle_{0, 0, 0};
   Boxes boxes_;
   Normals normals_;

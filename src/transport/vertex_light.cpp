@@ -41,7 +41,7 @@ VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& sur
       surfaces_(surfaces),
       vertices_(prepared, surfaces, std::move(emission), paths, seed, outdoors),
       clusters_(vertices_.all(), vertices_.clusterEnds(), vertices_.nearLight().width,
-                hiddenClusters(prepared, vertices_)) {}
+                !surfaces.portals().empty(), hiddenClusters(prepared, vertices_)) {}
 
 void VertexLight::Record::add(uint8_t batch, const Irradiance& part, double notChosen) {
   batches[batch] += part;
@@ -187,14 +187,17 @@ Radiance VertexLight::ofVertices(const PlainPlace& at, const Indirect& how, Rand
   const double each = all / tuning::VertexLight::kJoined;
   double due = random.uniform();
   Radiance sum;
-  for (size_t i = 0; i < drawn.count; ++i)
-    for (due += light(i) / each; due >= 1; --due) {
-      const uint32_t vertex = drawn.all[i].vertex;
-      const Radiance part = ofVertex(at, vertex) * (each / drawn.all[i].weight);
-      sum += part;
-      if (how.record && !isBlack(part))
-        how.record->add(vertices_.all()[vertex].batch, Irradiance(part.color * how.scale.color), 1);
-    }
+  for (size_t i = 0; i < drawn.count; ++i) {
+    due += light(i) / each;
+    if (due < 1) continue;
+    const double times = std::floor(due);
+    due -= times;
+    const uint32_t vertex = drawn.all[i].vertex;
+    const Radiance part = ofVertex(at, vertex) * (times * each / drawn.all[i].weight);
+    sum += part;
+    if (how.record && !isBlack(part))
+      how.record->add(vertices_.all()[vertex].batch, Irradiance(part.color * how.scale.color), 1);
+  }
   return sum;
 }
 

@@ -154,6 +154,23 @@ TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
   EXPECT_EQ(evenVariance(inRegions(base, {0, 0, kNoRegion, kNoRegion}), row, nullptr).brightness, 0);
 }
 
+// Six directions in a row. The fourth sees the wall between two windows, which is as bright as elsewhere, or
+// a spot on it. Compared with the windows, its difference would be -8.
+TEST(ErrorEstimate, WallsBetweenWindowsAreComparedWithOtherWalls) {
+  const Neighbours row{{0, 1, 3, 5, 7, 9, 10}, {1, 0, 2, 1, 3, 2, 4, 3, 5, 4}};
+  const auto varianceWith = [&](double between) {
+    std::vector<DirectionSample> base;
+    for (const double value : {1., 1., 9., between, 9., 9.})
+      base.push_back({V3d(0, 0, 1), 1, Radiance(value)});
+    return evenVariance(inRegions(base, {0, 0, 5, 0, 6, 6}), row, nullptr).brightness;
+  };
+  // The direction that is alone in its window is compared with its two neighbours.
+  const double alone = std::pow(9 - 1, 2) * 2. / 3;
+  EXPECT_NEAR(varianceWith(1), alone, 1e-12);
+  const double even = tuning::ErrorEstimate::kEvenSet;
+  EXPECT_NEAR(varianceWith(4), std::pow(9 - 2.5, 2) * 2. / 3 + even * 9 * 2 / 3, 1e-12);
+}
+
 // One direction that was sent to a window, beside base directions of which two see it.
 TEST(ErrorEstimate, ALoneDirectionIsComparedWithItsRegion) {
   const std::vector<DirectionSample> base = inRegions(
