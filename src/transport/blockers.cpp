@@ -60,9 +60,11 @@ Blockers::Blockers(const Scene& scene, const Tracer& tracer)
 }
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
-// Makes an opaque polygon of the scene itself a blocker for rays from a point. False if the surface is not
-// such a polygon, or if it is concave and belongs to no area.
-// Its area is only looked up if `withArea`, because that takes longer than most polygons need to be rejected.
+
+// Makes an opaque polygon of the scene itself a blocker for rays from a point. Returns false if the surface is
+// not such a polygon. withArea: looks up the polygon's area, and also returns false if the polygon is concave
+// and belongs to none. Without it, the area is only looked up when it is needed, because most polygons can be
+// rejected in less time.
 bool Blockers::find(SurfaceId id, const V3d& from, bool withArea, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;
   const Surface surface = scene_.surfaces[id];
@@ -108,8 +110,8 @@ bool Blockers::find(SurfaceId id, const V3d& from, bool withArea, Blocker& block
   return blocker.edges > 0 || blocker.area;
 }
 
-// The area of a blocker as seen from its front. Null if the blocker is convex and alone.
-const JoinedPolygons::Area* Blockers::areaOf(const Blocker& blocker) const {
+// Looks up the area of a blocker, as seen from its front. Null if the blocker is convex and alone.
+const JoinedPolygons::Area* Blockers::areaOf(Blocker& blocker) const {
   if (blocker.areaIsKnown) return blocker.area;
   const Surface surface = scene_.surfaces[blocker.surface];
   const auto* const area =
@@ -126,7 +128,7 @@ const JoinedPolygons::Area* Blockers::areaOf(const Blocker& blocker) const {
 // perpendicular to an axis are an exception, since regions end closer to it.
 //
 // Sets seesHole if the blocker's area extends far enough to hide the box, but has a hole or a gap.
-bool Blockers::covers(const Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const {
+bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const {
   Box3d both = from;
   both.extendBy(to);
   const double margin = marginOver(both.size().length());

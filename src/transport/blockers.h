@@ -26,8 +26,8 @@ struct Blocker {
   double size = 0;  // half the sum of its extents along two axes
   Box3d box{};
   // Null: the polygon alone, or its area has not been looked up yet (see areaIsKnown).
-  mutable const JoinedPolygons::Area* area = nullptr;
-  mutable bool areaIsKnown = false;
+  const JoinedPolygons::Area* area = nullptr;
+  bool areaIsKnown = false;
   uint32_t edges = 0;  // 0: only the area hides boxes
   std::array<V3d, kMostVertices> inward{};
   std::array<double, kMostVertices> least{};  // of each edge: inward . p for its points p
@@ -62,8 +62,8 @@ class Blockers {
 
  private:
   bool find(SurfaceId surface, const V3d& from, bool withArea, Blocker& blocker) const;
-  const JoinedPolygons::Area* areaOf(const Blocker& blocker) const;
-  bool covers(const Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const;
+  const JoinedPolygons::Area* areaOf(Blocker& blocker) const;
+  bool covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const;
 
   const Scene& scene_;
   const Tracer& tracer_;

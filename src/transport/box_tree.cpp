@@ -18,7 +18,7 @@ size_t BoxTree::makeNode(size_t begin, size_t end) {
   for (size_t i = begin; i < end; ++i) box.extendBy(boxOf(i));
   nodes.push_back({box, begin, end, 0});
   if (end - begin <= 1) return index;
-  const int axis = longestAxis(box);
+  const auto axis = static_cast<int>(box.majorAxis());
   const size_t middle = begin + (end - begin) / 2;
   const auto at = [&](size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {

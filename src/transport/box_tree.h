@@ -32,9 +32,4 @@ struct BoxTree {
   size_t makeNode(size_t begin, size_t end);
 };
 
-inline int longestAxis(const Box3d& box) {
-  const V3d size = box.size();
-  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-}
-
 }  // namespace rsphere

@@ -118,7 +118,7 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
 // descending order of that number. Empty if dividing the region would not pay.
 std::vector<std::pair<Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<Blocker, size_t>> found;
-  const double widest = region.box.size()[longestAxis(region.box)];
+  const double widest = region.box.size()[static_cast<int>(region.box.majorAxis())];
   const size_t step = std::max<size_t>(1, region.places->size() / kProbes);
   size_t probes = 0, hidden = 0;
   for (size_t i = 0; i < region.places->size(); i += step, ++probes)
@@ -169,7 +169,7 @@ void HiddenBoxes::divide(Region& region) const {
     for (int other = 0; other < 3; ++other)
       if (other != axis && divideAt(other, blocker.box, (1 + Blockers::kBeside) * margin)) return;
   }
-  const int longest = longestAxis(box);
+  const auto longest = static_cast<int>(box.majorAxis());
   if (box.size()[longest] < 4 * margin) return;
   region.axis = longest;
   region.at = box.center()[longest];

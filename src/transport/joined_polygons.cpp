@@ -267,7 +267,7 @@ JoinedPolygons::~JoinedPolygons() = default;
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 void JoinedPolygons::sort() const {
   const Box3d& all = tracer_.bounds();
-  const double least = kLeastSize * all.size()[longestAxis(all)];
+  const double least = kLeastSize * all.size()[static_cast<int>(all.majorAxis())];
   for (const SurfaceId id : scene_.outermostIds()) {
     const Surface surface = scene_.surfaces[id];
     const auto* const polygon = surface.shape.as<Polygon>();

@@ -86,7 +86,7 @@ class VertexClusters {
   std::vector<uint32_t> ends_;
   std::optional<HiddenBoxes> hidden_;
   struct Falloff {
-    double width2;
+    double width2;    // the square of the width
     float byNearest;  // 1: clusters are weighed by their nearest place, too; 0: not
   } falloff_;
   V3d middle_{0, 0, 0};
