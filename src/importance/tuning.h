@@ -122,8 +122,8 @@ struct SeenSources {
   // the squares, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5% (2048
   // base directions). Changing it by 30% changes no answer.
   RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The fraction of an even share in that cap. With it, the error for a small half-hidden lamp falls from 4.2%
-  // with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
+  // The fraction of an even share in that cap. With it, the error for a small half-hidden lamp falls from
+  // 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
   //
   // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
   // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Changing it by 30%

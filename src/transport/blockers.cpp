@@ -61,10 +61,10 @@ Blockers::Blockers(const Scene& scene, const Tracer& tracer)
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 
-// Makes an opaque polygon of the scene itself a blocker for rays from a point. Returns false if the surface is
-// not such a polygon. withArea: looks up the polygon's area, and also returns false if the polygon is concave
-// and belongs to none. Without it, the area is only looked up when it is needed, because most polygons can be
-// rejected in less time.
+// Makes an opaque polygon of the scene itself a blocker for rays from a point. Returns false if the surface
+// is not such a polygon. withArea: looks up the polygon's area, and also returns false if the polygon is
+// concave and belongs to none. Without it, the area is only looked up when it is needed, because most
+// polygons can be rejected in less time.
 bool Blockers::find(SurfaceId id, const V3d& from, bool withArea, Blocker& blocker) const {
   if (id.index() >= scene_.outermostIds().size()) return false;
   const Surface surface = scene_.surfaces[id];
