@@ -16,6 +16,7 @@
 #include "answer/record_writer.h"
 #include "answer/report_interval.h"
 #include "answer/stop_signals.h"
+#include "base/tuned.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
 #include "cli/program.h"
@@ -100,6 +101,8 @@ int main(int argc, char** argv) {
   Messages messages(program);
   return exitStatus(messages, [&] {
     limitMemory();
+    if (const std::string unknown = tuning::unknownName(); !unknown.empty())
+      throw rad::Error("RSPHERE_TUNING: no tuning constant \"" + unknown + "\"");
     StopSignals signals(program);
     const Options options = parseOptions(argc, argv);
     messages.use(options.messages, commandLine(options, true));

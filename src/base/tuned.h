@@ -14,29 +14,58 @@
 //
 // With the CMake option RSPHERE_SENSITIVITY, used by a separate build for that benchmark, values are read
 // from the environment variable RSPHERE_TUNING when the program starts: "Group.kName=2.1 Other.kName=7".
-// Unknown names are ignored.
+// The program refuses names of other constants than those in its source files (unknownName()).
+//
+// RSPHERE_DERIVED declares a constant with a derived value, by which tests/bench/mechanisms switches a
+// mechanism off, and which tests/bench/sensitivity does not vary.
 //
 // RSPHERE_TUNED_ROOM also declares kNameRoom, a bound for arrays of up to kName elements. It equals kName,
 // but is larger in the build for the benchmark.
+#include <string>
+
 #ifndef RSPHERE_SENSITIVITY
 
 #define RSPHERE_TUNED(group, type, name, value) static constexpr type name = value
 #define RSPHERE_TUNED_ROOM(group, type, name, value) static constexpr type name = value, name##Room = name
 
+namespace rsphere::tuning {
+inline std::string unknownName() { return {}; }
+}  // namespace rsphere::tuning
+
 #else
 
 #include <cstdlib>
 #include <cstring>
+#include <set>
+#include <sstream>
 
 namespace rsphere::tuning {
 
+// The names of all constants of the program (Group.kName), complete when main() begins.
+inline std::set<std::string>& knownNames() {
+  static std::set<std::string> names;
+  return names;
+}
+
 // The value of a constant (Group.kName) in RSPHERE_TUNING, or `usual` if it is not listed there.
 inline double tuned(const char* name, double usual) {
+  knownNames().insert(name);
   const char* const all = std::getenv("RSPHERE_TUNING");
   const size_t length = std::strlen(name);
   for (const char* at = all; at && (at = std::strstr(at, name)); at += length)
     if ((at == all || at[-1] == ' ') && at[length] == '=') return std::strtod(at + length + 1, nullptr);
   return usual;
+}
+
+// The first setting in RSPHERE_TUNING that is not one of a constant of the program; "" if there is none.
+inline std::string unknownName() {
+  const char* const all = std::getenv("RSPHERE_TUNING");
+  std::istringstream settings(all ? all : "");
+  for (std::string setting; settings >> setting;)
+    if (const size_t end = setting.find('=');
+        end == setting.npos || !knownNames().contains(setting.substr(0, end)))
+      return setting;
+  return {};
 }
 
 }  // namespace rsphere::tuning
@@ -48,3 +77,5 @@ inline double tuned(const char* name, double usual) {
   RSPHERE_TUNED(group, type, name, value)
 
 #endif
+
+#define RSPHERE_DERIVED(group, type, name, value) RSPHERE_TUNED(group, type, name, value)

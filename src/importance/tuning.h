@@ -95,7 +95,7 @@ struct Targets {
   //   error with none                  76%          51%    5.9%   3.8%   2.3%
   // - Spots of daylight. With the default number of directions, the errors in two sunlit rooms are 1.5 and
   //   1.8% with such targets, 2.75 and 1.9% without. With .25 or 1, no effect beyond noise.
-  static constexpr double kPartlyLit = .5;
+  RSPHERE_DERIVED(Targets, double, kPartlyLit, .5);
   // An opening gets at least Caps::kProbes directions if it would, unoccluded, give more than this fraction
   // of the light at a point: chosen by experiment. With .1, a far window that happens to be dark in the rays
   // around a point causes errors of up to 10% instead of 5%. With only 8 directions, an opening with an
@@ -152,7 +152,7 @@ struct Silhouettes {
   // cap: derived. Hulls are computed on a plane, which cannot represent a hemisphere (1.57). At this angle,
   // the projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. With
   // 1.2, the error beside chrome is 30% larger, in the same time.
-  static constexpr double kWidestHull = 1.5;
+  RSPHERE_DERIVED(Silhouettes, double, kWidestHull, 1.5);
   // Corners of the polygon around a circle: derived. The polygon's area is 1.3% larger than the circle's, so
   // that 1.3% of the directions to it miss the object. When searching for images on balls, light sources with
   // more corners are replaced by squares around them. Changing it by 30% has no effect beyond noise (points

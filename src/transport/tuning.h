@@ -159,7 +159,7 @@ struct SharedHighlights {
   // If the lobe's density in a direction (per sr) times the solid angle of the source is below this, only
   // shadow rays estimate the light from that direction. Derived: a shadow ray then adds at most a quarter of
   // the light of the whole lobe.
-  static constexpr double kLeast = .25;
+  RSPHERE_DERIVED(SharedHighlights, double, kLeast, .25);
 };
 
 // The fractions of the directions of gathers that are aimed (gather_directions.cpp). They are proportional to
@@ -199,7 +199,7 @@ struct Highlights {
   // Gathers with at least this number of rays search for highlights on cylinders. Derived: in the same
   // office, a search takes as long as two rays, at most an eighth of these. If single rays searched too,
   // spherical means would take 1.5 times the time for the same noise.
-  static constexpr int kMany = 16;
+  RSPHERE_DERIVED(Highlights, int, kMany, 16);
   // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. Measured for
   // spherical means in the same office: relative to no aiming at balls, the work for the same noise increases
   // by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single highlight

@@ -40,6 +40,16 @@ TEST(Tuned, FindsWholeNamesInTheEnvironment) {
   EXPECT_EQ(rsphere::tuning::tuned("Group.kNam", 7), 7);
   unsetenv("RSPHERE_TUNING");
 }
+
+TEST(Tuned, FindsUnknownNames) {
+  setenv("RSPHERE_TUNING", "Group.kReal=1 Group.kMany=2", 1);
+  EXPECT_EQ(rsphere::tuning::unknownName(), "");
+  for (const char* unknown : {"Group.kRea=2", "kReal=1", "Group.kReal", "Group.kReal,Group.kMany=1"}) {
+    setenv("RSPHERE_TUNING", (std::string("Group.kWhole=1 ") + unknown).c_str(), 1);
+    EXPECT_EQ(rsphere::tuning::unknownName(), unknown);
+  }
+  unsetenv("RSPHERE_TUNING");
+}
 #endif
 
 }  // namespace
