@@ -952,14 +952,15 @@ void addWeightOptions(const Add& add) {
            "v: the solid angle of each direction's cell in a spherical Voronoi diagram. c: the same, with "
            "cells that end at the silhouettes of special objects, and with light sources integrated "
            "separately by next-event estimation. With c, the light of diffuse surfaces is estimated by "
-           "glances, rays that only find a surface. There are two cases. If all surfaces and sources are "
-           "suitable, glances are combined with light paths from the sources, whatever -aa is. Suitable are "
-           "surfaces of plastic, metal, glass and curved mirrors without patterns, textures and mixtures, "
-           "and sources without patterns that are not distant. The same is done in rooms without lamps "
+           "glances, rays that only find a surface, combined with light paths from the sources, whatever "
+           "-aa is. Light that meets other surfaces than plastic, metal, glass and mirrors, or such with "
+           "textures or mixtures, is left to the directions. The same is done in rooms without lamps "
            "that daylight enters through windows or holes in walls, where -aa is 0: light paths from the "
-           "openings carry the light of sun, sky and ground; points outdoors are excepted. Otherwise "
-           "glances are used for a control variate, but not by daylight. With h and v, light sources are "
-           "treated like other surfaces.",
+           "openings carry the light of sun, sky and ground; points outdoors are excepted. There are no "
+           "glances in other scenes with distant light sources, in mist, and where all lamps are of kinds "
+           "that light paths do not start from (concave polygons, glow with a radius, spotlights that are "
+           "not flat). "
+           "With h and v, light sources are treated like other surfaces.",
        .line = weightsLine});
 }
 

@@ -22,7 +22,6 @@ enum class Stream : uint64_t {
   imagesOfSources = 1,
   raysAround = 2,
   dynamicDirections = 3,
-  guess = 4,
   firstRay = 16,  // of the first direction; the next directions have the numbers that follow
 };
 
@@ -36,27 +35,11 @@ double solidAngleOf(std::span<const SeenSources::Sample> samples) {
   return sum;
 }
 
-// No guess is made for light sources that are integrated separately, nor for mirrors that show them.
-ById<SurfaceId, bool> unguessedSurfaces(const SeenSources& sources) {
-  ById<SurfaceId, bool> unguessed = sources.apart();
-  for (const SurfaceId mirror : sources.mirrors()) unguessed[mirror] = true;
-  return unguessed;
-}
-
 // beside: number of directions that -Sx allows in addition to the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
   const size_t usual = std::max(base / tuning::SilhouetteWeights::kBaseDirectionsPerRayToImages,
                                 static_cast<size_t>(tuning::SeenSources::kUsualRays));
   return glances ? std::max(usual, std::min(base, beside / 2)) : usual;
-}
-
-// The glances for the guess; none by daylight, where guessing has no benefit.
-std::vector<V3d> glancesFor(const PreparedScene& prepared, const SphereOptions& options) {
-  if (!prepared.lights().distant().empty()) return {};
-  const auto count = static_cast<size_t>(options.baseDirections);
-  const size_t glances = std::min(tuning::SilhouetteWeights::kGlancesPerDirection * count,
-                                  std::max(count, tuning::DiffuseGlances::kMost));
-  return rotatedDirections(baseDirections(glances), options.rotation);
 }
 
 // Joins the directions to images of sources and the other directions into one set.
@@ -85,18 +68,11 @@ SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereO
                                      const SeenSources& sources, const DiffuseGlances* glances)
     : options_(options), base_(base), sources_(sources), glances_(glances) {
   if (!(options.densityFactor > 0)) return;
-  guidance_.emplace(Guidance{TargetChoice(tracing, special, sources, options.densityFactor),
-                             RadianceGuess(tracing.prepared, unguessedSurfaces(sources)),
-                             glances ? std::vector<V3d>() : glancesFor(tracing.prepared, options),
-                             baseDirections(tuning::Caps::kProbes), std::nullopt});
-  if (!base.neighbours || guidance_->glances.empty()) return;
-  VoronoiWorkspace workspace;
-  cellSolidAngles(guidance_->glances, workspace);
-  guidance_->neighbours = neighboursOf(workspace);
+  targets_.emplace(tracing, special, sources, options.densityFactor);
 }
 
 SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const {
-  const View view = viewFrom(set, tracer);
+  View view = viewFrom(set, tracer);
   PathRequest request;
   const std::shared_ptr<const VertexLight> light = glances_ ? glances_->light(set) : nullptr;
   request.vertexLight = light.get();
@@ -105,18 +81,17 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
       sources_.sample(paths, view.images, seedOf(set, Stream::imagesOfSources));
   const Plan plan = planFor(set, view, toImages);
   const SampledSet others = traced(set, view, plan, paths);
-  DiffuseGlances::Found beyond = beyondGuesses(set, view, others.samples);
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
   const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
-  sampled.excess = std::move(beyond.moments);
-  sampled.shared = std::move(beyond.shared);
-  sampled.sharedByZone = std::move(beyond.sharedByZone);
-  sampled.ofZones = std::move(beyond.ofZones);
-  sampled.litGlances = beyond.lit;
+  sampled.excess = beyondGuesses(view, others.samples);
+  sampled.shared = std::move(view.glanced.shared);
+  sampled.sharedByZone = std::move(view.glanced.sharedByZone);
+  sampled.ofZones = std::move(view.glanced.ofZones);
+  sampled.litGlances = view.glanced.lit;
   if (options_.clamp > 0)
     sampled.clamped = clampContributions(othersOf, totalOf(sampled), options_.clamp, base_.sampling);
-  sampled.variance = beyond.variance;
+  sampled.variance = view.glanced.variance;
   if (base_.neighbours)
     sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));
   return sampled;
@@ -132,16 +107,16 @@ SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathT
   if (glances_) {
     view.glanced = glances_->at(set, tracer);
     view.meanBrightness = tuning::DiffuseGlances::kLeft * brightness(view.glanced.moments.total) / (4 * pi);
-  } else if (guidance_) {
-    lookAround(set, tracer, view);
+  } else if (targets_) {
+    view.meanBrightness = lookAround(set, tracer, view.images);
   }
   return view;
 }
 
-void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const {
+double SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, const Images& images) const {
   const PathsFrom paths(tracer, set.point());
-  std::vector<RadianceGuess::Traced> traced;
   Random random(mixBits(seedOf(set, Stream::raysAround)));
+  double sum = 0;
   for (int i = 0; i < tuning::Caps::kProbes; ++i) {
     // Stratified in height: slices of the sphere with equal areas.
     const double z = 1 - 2 * (i + random.uniform()) / tuning::Caps::kProbes,
@@ -149,15 +124,9 @@ void SilhouetteWeights::lookAround(const SetAtPoint& set, PathTracer& tracer, Vi
     const double r = std::sqrt(std::max(0., 1 - z * z));
     const V3d direction(r * std::cos(angle), r * std::sin(angle), z);
     const TracedRay ray = paths.trace(direction, random.bits());
-    if (sources_.isOne(ray.shown, view.images)) continue;
-    const Hit& hit = ray.firstHit;
-    traced.push_back({guidance_->guess.placeOf(set.point(), direction, hit), ray.value});
-    view.meanBrightness += brightness(ray.value) / tuning::Caps::kProbes;
+    if (!sources_.isOne(ray.shown, images)) sum += brightness(ray.value);
   }
-  if (guidance_->glances.empty()) return;
-  const uint64_t seed = seedOf(set, Stream::guess);
-  const std::vector<V3d> glances = rotatedDirections(guidance_->fitGlances, mixBits(seed));
-  view.guess = guidance_->guess.fit(set.point(), glances, traced, mixBits(seed + 1));
+  return sum / tuning::Caps::kProbes;
 }
 
 SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const View& view,
@@ -165,7 +134,7 @@ SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const 
   Plan plan;
   const size_t base = base_.directions.size(), used = base + toImages.size();
   const size_t most = static_cast<size_t>(options_.mostDirections), left = most > used ? most - used : 0;
-  if (guidance_) plan.targets = guidance_->targets.at(set.point(), view.meanBrightness, base, left);
+  if (targets_) plan.targets = targets_->at(set.point(), view.meanBrightness, base, left);
   plan.solidAngle = std::max(0., 4 * pi - solidAngleOf(toImages));
   chooseDirections(set, plan);
   return plan;
@@ -207,9 +176,10 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     sample.direction = direction;
     sample.region = enters ? region.id : kNoRegion;
     if (enters) {
-      sample.value = ray.value;
-      sample.guess = guessAlong(set, view, i, direction, ray, paths);
-      if (glances_) sample.value += sample.guess;
+      // Glances find all light of plain diffuse surfaces. With -Sd, one along each direction estimates it.
+      if (glances_ && options_.everyDirection)
+        sample.guess = glances_->along(set, direction, i + 1, paths.tracer());
+      sample.value = ray.value + sample.guess;
     }
     sampled.samples.push_back(sample);
     if (options_.everyDirection) sampled.rays.push_back(ray);
@@ -219,40 +189,11 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
   return sampled;
 }
 
-// If glances find all light of diffuse surfaces, traced rays leave it out. With -Sd, one glance along each
-// direction then estimates it.
-Radiance SilhouetteWeights::guessAlong(const SetAtPoint& set, const View& view, size_t i,
-                                       const V3d& direction, const TracedRay& ray,
-                                       const PathsFrom& paths) const {
-  if (view.guess) return view.guess->from(guidance_->guess.placeOf(set.point(), direction, ray.firstHit));
-  return glances_ && options_.everyDirection ? glances_->along(set, direction, i + 1, paths.tracer())
-                                             : Radiance();
-}
-
-DiffuseGlances::Found SilhouetteWeights::beyondGuesses(const SetAtPoint& set, const View& view,
-                                                       std::span<const DirectionSample> others) const {
-  DiffuseGlances::Found found = view.glanced;
+Moments SilhouetteWeights::beyondGuesses(const View& view, std::span<const DirectionSample> others) const {
+  Moments moments = view.glanced.moments;
   for (const DirectionSample& s : others)
-    found.moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling, s.solidAngle);
-  if (view.guess) addGlances(set, *view.guess, found);
-  return found;
-}
-
-// Adds the guesses along the glances.
-void SilhouetteWeights::addGlances(const SetAtPoint& set, const LocalGuess& guess,
-                                   DiffuseGlances::Found& found) const {
-  const double cell = 4 * pi / static_cast<double>(guidance_->glances.size());
-  std::vector<DirectionSample> seen;
-  for (const V3d& direction : set.turned(guidance_->glances)) {
-    const Radiance radiance = guess.along(set.point(), direction);
-    found.moments.add(direction, irradianceFrom(radiance, cell), base_.sampling, cell);
-    if (guidance_->neighbours) seen.push_back({direction, cell, radiance});
-  }
-  if (!guidance_->neighbours) return;
-  ZoneVariances ofZones(base_.zones.get());
-  found.variance = evenVariance(seen, *guidance_->neighbours, base_.sampling, zonesOf(ofZones)) *
-                   tuning::ErrorEstimate::kEvenParts;
-  found.ofZones.add(ofZones, tuning::ErrorEstimate::kEvenParts);
+    moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling, s.solidAngle);
+  return moments;
 }
 
 Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,

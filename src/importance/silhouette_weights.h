@@ -8,7 +8,6 @@
 #include "importance/sampling_strategy.h"
 #include "importance/seen_sources.h"
 #include "importance/targets.h"
-#include "transport/radiance_guess.h"
 
 namespace rsphere {
 
@@ -25,16 +24,13 @@ namespace rsphere {
 //   that show daylight, and spots of sunlight that enters through them, also get directions.
 // - Indirect rays are aimed at openings that daylight enters through (transport/openings.h), and at diffuse
 //   surfaces that receive much direct light (transport/bright_spots.h).
-// - In scenes with lamps, the light of plain diffuse surfaces is estimated by glances and by shadow rays to
-//   light vertices instead of these directions (diffuse_glances.h).
-// - In other scenes with lamps, a control variate reduces the variance of diffuse surfaces
-//   (transport/radiance_guess.h). Its integral is estimated by glances, rays that are not followed beyond
-//   their first hit. Traced directions only estimate the difference.
+// - In scenes with lamps, and in rooms with openings by daylight, the light of plain diffuse surfaces is
+//   estimated by glances and by shadow rays to light vertices instead of these directions
+//   (diffuse_glances.h).
 // With -Sk 0 only the first of these applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
-  // Keeps references to all of them. glances: used instead of the guess; null if glances would miss some of
-  // the light of diffuse surfaces.
+  // Keeps references to all of them. glances: null if traced directions find all light.
   SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options, const BaseSet& base,
                     std::span<const SpecialObject> special, const SeenSources& sources,
                     const DiffuseGlances* glances);
@@ -44,24 +40,15 @@ class SilhouetteWeights : public SamplingStrategy {
  private:
   using Images = std::vector<SeenSources::Image>;
 
-  // Data for reducing the variance of light that does not come directly from sources.
-  struct Guidance {
-    TargetChoice targets;
-    RadianceGuess guess;
-    std::vector<V3d> glances, fitGlances;  // empty glances: no guess is made
-    std::optional<Neighbours> neighbours;  // of glances; empty unless standard errors are requested
-  };
-
   // Stage 1: information about the view from a point, before directions are chosen.
   struct View {
-    Images images;              // of sources that are integrated separately
-    double meanBrightness = 0;  // of light found by the other directions, W/sr/m2
-    std::optional<LocalGuess> guess;
-    DiffuseGlances::Found glanced;  // 0 where glances miss some of the light of diffuse surfaces
+    Images images;                  // of sources that are integrated separately
+    double meanBrightness = 0;      // of light found by the other directions, W/sr/m2
+    DiffuseGlances::Found glanced;  // 0 without glances
   };
   View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
-  // Sets meanBrightness and guess. The radiances of its rays are used for nothing else.
-  void lookAround(const SetAtPoint& set, PathTracer& tracer, View& view) const;
+  // The mean brightness around a point. The radiances of its rays are used for nothing else.
+  double lookAround(const SetAtPoint& set, PathTracer& tracer, const Images& images) const;
 
   // Stage 2: the directions that are not sent to images of sources.
   struct Plan {
@@ -78,15 +65,10 @@ class SilhouetteWeights : public SamplingStrategy {
   // Stage 3: traces and weights the directions of the plan. Directions that show a separately sampled image
   // of a light source are in kNoRegion, with solid angle, radiance and guess 0.
   SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
-  // The light along direction number i that is estimated by glances.
-  Radiance guessAlong(const SetAtPoint& set, const View& view, size_t i, const V3d& direction,
-                      const TracedRay& ray, const PathsFrom& paths) const;
 
   // Stage 4: the correction of the control variate: light found by glances, minus the guesses of the
   // directions.
-  DiffuseGlances::Found beyondGuesses(const SetAtPoint& set, const View& view,
-                                      std::span<const DirectionSample> others) const;
-  void addGlances(const SetAtPoint& set, const LocalGuess& guess, DiffuseGlances::Found& found) const;
+  Moments beyondGuesses(const View& view, std::span<const DirectionSample> others) const;
 
   // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
@@ -96,7 +78,7 @@ class SilhouetteWeights : public SamplingStrategy {
   const BaseSet& base_;
   const SeenSources& sources_;
   const DiffuseGlances* glances_;
-  std::optional<Guidance> guidance_;  // none with -Sk 0
+  std::optional<TargetChoice> targets_;  // none with -Sk 0
 };
 
 }  // namespace rsphere

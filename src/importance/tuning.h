@@ -30,11 +30,6 @@ struct Contrasts {
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
-  // Glances per base direction: measured. A glance takes .15 to .5 us, a direction 1 to 100. Doubling it, and
-  // the shadow rays to sources (SeenSources), reduced the error from .53% to .51% beside a goal and from .41%
-  // to .40% in the open-plan office, in up to a fifth more time. Changing it by 30% has no effect beyond
-  // noise (points in office; noise: error 27%, time 6%).
-  RSPHERE_TUNED(SilhouetteWeights, size_t, kGlancesPerDirection, 4);
   // Base directions for each direction to images of light sources; the latter are at least
   // SeenSources::kUsualRays. Chosen by experiment. Changing it by 30% has no effect beyond noise (points in
   // office; noise: error 8%, time 6%).
@@ -189,9 +184,6 @@ struct ErrorEstimate {
   //   lamp of .1 m, half hidden                 .69          .98
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // Changing it by 30% changes no answer.
-  //
-  // It is also the factor for glances, whose guesses have edges but no noise of paths. In the open-plan
-  // office without bounces, the actual standard deviation is then 1.07 times the stated one.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
   // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number

@@ -11,9 +11,8 @@ namespace rsphere::tuning {
 struct SourceParts {
   // A part of a plane source is sampled by solid angle instead of by area if its width, relative to its
   // distance, is larger than this: derived. The edge of a narrower part is at most 3% farther away than its
-  // middle, sqrt(1 + .25^2), so that cosine / distance^2 varies little over it. Guesses of its light use the
-  // middle (radiance_guess.h). Changing it by 30% has no effect beyond noise (points in workshop; noise:
-  // error below 1%, time 4%).
+  // middle, sqrt(1 + .25^2), so that cosine / distance^2 varies little over it. Changing it by 30% has no
+  // effect beyond noise (points in workshop; noise: error below 1%, time 4%).
   static constexpr double kNear = .5;
 };
 

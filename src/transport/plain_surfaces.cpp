@@ -151,10 +151,6 @@ const char* PlainSurfaces::obstacle() const {
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!coverage_.anySource) return "no known sources";
-  // With an unknown surface (a sheet of paper or a crystal ball in an open-plan office), bidirectional
-  // estimation only pays around a goal. Measured: around a goal half the error in twice the time; by lamps
-  // the same error in two thirds more time.
-  if (!coverage_.all && !scene_.importance) return "surfaces or sources that are not known";
   return hasMist(scene_) ? "mist" : nullptr;
 }
 

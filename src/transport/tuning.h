@@ -36,9 +36,8 @@ struct Caps {
   //   nearly all paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Number of rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and
-  // (as a minimum) to each opening that may matter there. Also the number of shadow rays that measure the
-  // mean visibility of a source (radiance_guess.cpp). Chosen by experiment. A mean is then known within 18%
-  // if single values vary as much as their mean.
+  // (as a minimum) to each opening that may matter there. Chosen by experiment. A mean is then known within
+  // 18% if single values vary as much as their mean.
   // - For panes, changing it by 30% either way increases the time by 30%, because other panes are then
   //   classified as openings (sensors by panes; noise: error 19%, time 4%).
   // - For points, changing it by 30% has no effect beyond noise (points beside goal; noise: error 16%, time
@@ -142,15 +141,6 @@ struct Portals {
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
   // The fraction of the rays for the light of portals that are aimed at them.
   RSPHERE_TUNED(Portals, double, kAimed, .75);
-};
-
-// The control variate of sphere mode (radiance_guess.cpp).
-struct RadianceGuess {
-  // If a source adds more than this many times the mean guess at a place, a shadow ray to the middle of the
-  // source replaces the mean visibility. Chosen by experiment. This happens for a few percent of the glances,
-  // which carry most of the light. Changing it by 30% has no effect beyond noise (points beside goal; noise:
-  // error 4%, time 3%).
-  RSPHERE_TUNED(RadianceGuess, double, kBright, 16);
 };
 
 // The balance between shadow rays and samples of the lobe in the estimate of rough highlights of sources

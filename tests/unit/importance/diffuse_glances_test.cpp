@@ -262,8 +262,7 @@ TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
   EXPECT_EQ(obstacle(""), "none");
   EXPECT_EQ(obstacle("void light black 0 0 3 0 0 0\nblack sphere q 0 0 4 1 1 1 .1\n"), "none");
   EXPECT_EQ(obstacle("lamp source sun 0 0 4 0 0 1 .5\n"), "distant sources");
-  EXPECT_EQ(obstacle("void mist fog 0 0 3 .1 .1 .1\nfog sphere q 0 0 4 1 1 1 .1\n"),
-            "surfaces or sources that are not known");
+  EXPECT_EQ(obstacle("void mist fog 0 0 3 .1 .1 .1\nfog sphere q 0 0 4 1 1 1 .1\n"), "mist");
 }
 
 // The light that arrives first at walls that close the room is all that the lamp sends.

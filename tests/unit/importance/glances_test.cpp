@@ -13,7 +13,7 @@
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
 
-namespace rsphere::guesses_test {
+namespace rsphere::glances_test {
 namespace {
 
 struct Setting : SphereSetting {
@@ -74,16 +74,15 @@ Spread spreadOf(const Setting& setting, double density, int base, int rotations)
     for (const DirectionSample& s : workspace.samples) {
       sum += s.solidAngle * brightness(s.value);
       EXPECT_GE(std::min({s.value.color.x, s.value.color.y, s.value.color.z}), 0)
-          << "what is guessed leaves no radiance negative";
+          << "the share of glances leaves no radiance negative";
     }
     EXPECT_NEAR(sum / (4 * kPi), brightness(a.mean), 1e-9 * brightness(a.mean));
   }
   return spread;
 }
 
-// With -Sk 0 nothing is guessed and nothing gets directions of its own. With indirect light its noise is most
-// of what is left, and indirect rays are guessed too.
-TEST(Guesses, HalveTheErrorBesideAGoalWithoutBias) {
+// With -Sk 0 there are no glances, and nothing gets directions of its own.
+TEST(Glances, HalveTheErrorBesideAGoalWithoutBias) {
   for (const int bounces : {0, 3}) {
     const Setting setting(deskBesideGoal(), bounces, true);
     const Spread ours = spreadOf(setting, 1, 300, 60), equal = spreadOf(setting, 0, 400, 60);
@@ -96,8 +95,8 @@ TEST(Guesses, HalveTheErrorBesideAGoalWithoutBias) {
   }
 }
 
-// By lamps, in a room with a sheet that paths from both ends do not know: the guess of radiance.
-TEST(Guesses, LeaveTheMeanByLampsAsItIs) {
+// By lamps, in a room with a sheet that paths from both ends do not know.
+TEST(Glances, LeaveTheMeanByLampsAsItIs) {
   const Setting setting(deskBesideGoal() +
                         "lamp polygon l 0 0 12 3 3 2.9 3 4 2.9 5 4 2.9 5 3 2.9\n"
                         "void trans paper 0 0 7 .6 .6 .6 0 0 .3 0\n"
@@ -136,4 +135,4 @@ TEST(SeenSources, HowMuchIsHiddenByShadowRays) {
 }
 
 }  // namespace
-}  // namespace rsphere::guesses_test
+}  // namespace rsphere::glances_test
