@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "rad_parser/block.h"
-#include "rad_parser/description.h"
 #include "rad_parser/printable.h"
 
 namespace rad {

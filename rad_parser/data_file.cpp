@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "rad_parser/error.h"
 #include "rad_parser/number_list.h"
 
 namespace rad {

@@ -1,7 +1,6 @@
 #pragma once
 #include <functional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace rad {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rad_parser/error.h"
 #include "rad_parser/number_list.h"
 
 namespace rad {

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 
 #include "rad_parser/binary_scene.h"
-#include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
 

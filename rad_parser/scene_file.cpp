@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "rad_parser/description_builder.h"
-#include "rad_parser/file_path.h"
 #include "rad_parser/number.h"
 #include "rad_parser/octree_file.h"
 #include "rad_parser/open_file.h"

@@ -1,6 +1,5 @@
 #pragma once
 #include <cmath>
-#include <cstdint>
 
 // Numeric functions of the language that the C library lacks. They depend only on their arguments.
 namespace rad::calc {

@@ -1,7 +1,6 @@
 #include "answer/answer_rays.h"
 
 #include <memory>
-#include <vector>
 
 #include "answer/threads.h"
 #include "transport/ray_report.h"

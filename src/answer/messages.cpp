@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "answer/record_writer.h"
-#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {

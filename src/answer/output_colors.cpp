@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
 
+#include "base/colorimetry.h"
 #include "base/constants.h"
 #include "rad_parser/error.h"
 

@@ -1,10 +1,8 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "answer/record_text.h"
-#include "base/colorimetry.h"
 #include "base/primaries.h"
 #include "base/radiometry.h"
 #include "base/spectral_sampling.h"

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <ctime>
 
-#include "rad_parser/error.h"
 #include "rad_parser/printable.h"
 
 namespace rsphere {

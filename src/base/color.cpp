@@ -1,6 +1,5 @@
 #include "base/color.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <new>

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 
 #include "answer/output_colors.h"
 #include "cli/option_words.h"

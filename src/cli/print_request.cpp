@@ -2,7 +2,6 @@
 
 #include "answer/header.h"
 #include "answer/record_writer.h"
-#include "cli/option_table.h"
 
 namespace rsphere {
 

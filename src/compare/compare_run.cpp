@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
-#include <optional>
 
 #include "answer/answer_points.h"
 #include "answer/answer_rays.h"

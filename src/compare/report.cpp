@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rad_parser/error.h"
-
 namespace rsphere {
 
 std::string percent(double x) {

@@ -20,7 +20,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "field/field_options.h"
 #include "field/field_rays.h"
@@ -61,12 +60,12 @@ class CoarseSolution {
  private:
   // How finely surfaces are divided into patches, and how many rays a patch sends.
   struct Effort {
-    double spacing;  // side of a patch, relative to the harmonic mean distance of its surroundings
-    double leastSide;  // lower bound on the side of a patch, relative to its surface's extent
-    double farSide;  // sufficient side of a patch, relative to the distance it is seen from
-    double usual;  // rays of a patch with the share Tuning::kUsualShare in the light of others
+    double spacing;      // side of a patch, relative to the harmonic mean distance of its surroundings
+    double leastSide;    // lower bound on the side of a patch, relative to its surface's extent
+    double farSide;      // sufficient side of a patch, relative to the distance it is seen from
+    double usual;        // rays of a patch with the share Tuning::kUsualShare in the light of others
     double fewer, more;  // bounds on the factor for other shares
-    double least;  // lower bound on the rays of a patch
+    double least;        // lower bound on the rays of a patch
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

@@ -5,10 +5,10 @@ namespace rsphere {
 
 // Settings of the irradiance cache and the coarse solution, most of them given by rtrace's options.
 struct FieldOptions {
-  int bounces = 0;        // -ab
-  double accuracy = .1;   // -aa
-  int resolution = 256;   // -ar  0: no limit
-  double rays = 1536;  // -ad + -as; the number of rays of a patch is proportional to it
+  int bounces = 0;       // -ab
+  double accuracy = .1;  // -aa
+  int resolution = 256;  // -ar  0: no limit
+  double rays = 1536;    // -ad + -as; the number of rays of a patch is proportional to it
   // Patches of the coarse solution that are only seen by other patches are enlarged by this number of levels.
   // Each level doubles the side of a patch.
   int coarserLinks = 0;
@@ -17,7 +17,7 @@ struct FieldOptions {
   bool patchesAtFirst = false;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands
-  double memory = 0;  // -Sm  MB for the irradiance cache; 0: no limit
+  double memory = 0;      // -Sm  MB for the irradiance cache; 0: no limit
 };
 
 }  // namespace rsphere

@@ -35,7 +35,7 @@ namespace {
 struct RingMeans {
   double c, s, inverseC, tangent;
   double edgeWeight;  // weight of the difference between this ring and the next inner one
-  double width;  // difference between the sines of its two edges
+  double width;       // difference between the sines of its two edges
 };
 
 std::vector<RingMeans> meansOfRings(int rings, int sectors) {

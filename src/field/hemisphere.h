@@ -7,9 +7,7 @@
 // Rendering Workshop 1992), here for cells of equal projected solid angle.
 #include <Imath/ImathVec.h>
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "base/radiometry.h"
 
@@ -41,7 +39,7 @@ struct Surroundings {
 // efficient representation for irradiance environment maps" (SIGGRAPH 2001). Difference: moments replace
 // spherical harmonics.
 struct LightMoments {
-  float all[3] = {0, 0, 0};  // per channel: integral of L, divided by pi (W/sr/m2)
+  float all[3] = {0, 0, 0};                 // per channel: integral of L, divided by pi (W/sr/m2)
   V3f first[3] = {V3f(0), V3f(0), V3f(0)};  // the same of L d
   V3f squares[3] = {V3f(0), V3f(0), V3f(0)},
       products[3] = {V3f(0), V3f(0), V3f(0)};  // the same of L dd: xx yy zz, yz zx xy

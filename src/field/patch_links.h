@@ -24,8 +24,8 @@ struct PatchLinks {
   };
   std::vector<Link> links;
   std::vector<V3f> light;  // index: bounces; radiance that depends on no patch (W/sr/m2)
-  std::vector<V3f> ends;  // index: bounces; coefficient of -av, used if -ab ends the path here
-  int rays = 0;  // number of rays that were followed, with their descendants, without shadow rays
+  std::vector<V3f> ends;   // index: bounces; coefficient of -av, used if -ab ends the path here
+  int rays = 0;            // number of rays that were followed, with their descendants, without shadow rays
 
   void add(Patch* patch, const Coefficient& coefficient, int bounces);
   void addLight(int bounces, const Radiance& radiance);

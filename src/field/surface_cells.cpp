@@ -1,8 +1,5 @@
 #include "field/surface_cells.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/constants.h"
 #include "base/overloaded.h"
 #include "scene/even_sequence.h"

@@ -4,10 +4,9 @@
 //
 // Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
 // best of some values that were tried on pictures of furnished rooms
-// (tests/bench/rtrace/runs/2026-11-21-interpolated.txt); the results of the others were not kept. The effect
-// of changing a constant by 30% is from tests/bench/sensitivity (runs/2026-11-24.txt, or 2026-11-22.txt if it
-// was not measured again). The case in parentheses is the one in which answers change most; "noise" is the
-// standard error of the measured effect.
+// (tests/bench/rtrace/runs/2026-11-21-interpolated.txt); the results of the others were not kept.
+// "Insensitive": changing it by 30% had no effect beyond noise in tests/bench/sensitivity
+// (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again).
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
@@ -17,10 +16,10 @@ struct Fields {
   // Surroundings at this distance, relative to the size of the scene, are treated as open. It bounds the side
   // of cells, and the mean distance of surroundings that determines the side of patches. Chosen by
   // experiment. Reducing it by 30% has no effect beyond noise; increasing it by 30% reduces the time by 28%
-  // (sensors by sun; noise: error 10%, time 4%).
+  // (sensors by sun).
   RSPHERE_TUNED(Fields, double, kOpen, .1);
   // Number of finer levels that are tried if a place sees no site or patch. Chosen by experiment. 1 and 3
-  // have no effect beyond noise (sensors by sun; noise: error below 1%, time 6%).
+  // have no effect beyond noise (sensors by sun).
   RSPHERE_TUNED(Fields, int, kFinerWhereHidden, 2);
 };
 
@@ -33,42 +32,38 @@ struct IrradianceField {
   // between louvres is 3% too dark. With 2.5, furnished rooms need 3% more gathers.
   //
   // The side of the widest cells is -aa times the same constant times the harmonic mean distance of their
-  // surroundings. Chosen by experiment. Changing it by 30% has no effect beyond noise (picture of office;
-  // noise: error 4%, time 8%).
+  // surroundings. Chosen by experiment. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
   // Upper bound on the finest spacing, relative to the height of the gap that contains a place (the distance
   // to the first surface along its normal). Measured between louvres: with 1, 2.6% of the places are wrong by
   // a factor of 1.5, instead of .7%; .125 gives the same errors, with 3% more gathers in a furnished room.
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
   // -aa divided by this is the allowed relative error of an interpolation. Chosen by experiment. In RADIANCE,
-  // -aa bounds the error, and the mean error is smaller. Changing it by 30% has no effect beyond noise
-  // (picture of workshop; noise: error 4%, time 6%).
+  // -aa bounds the error, and the mean error is smaller. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.4);
   // If the error of a level of cells is at most the allowed one, that level gives the whole answer. If the
   // error is this many times the allowed one or more, the level is not used. In between it is blended with
   // the next level, to avoid visible edges. The allowed error grows by the same factor from level to level,
-  // because smaller cells cover a smaller part of a picture. Chosen by experiment. Changing it by 30% has no
-  // effect beyond noise (picture by sun; noise: error below 1%, time 4%).
+  // because smaller cells cover a smaller part of a picture. Chosen by experiment. Insensitive.
   //
   // It is also the margin of safety for extrapolations. The relative error of an extrapolation over a
   // distance d is predicted as this constant times the larger of two quantities: the relative change that the
   // gradients predict over d; and this constant times (d / R)^2, where R is the harmonic mean distance of the
-  // surroundings. Changing that by 30% has no effect beyond noise, either (picture of office; noise: error
-  // 1%, time 11%).
+  // surroundings. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kNoneAbove, 1.5);
 };
 
 // Interpolation between the sites around a place (site_interpolation.cpp).
 struct SiteInterpolation {
   // Differences between sites below this number of standard errors are treated as noise. Chosen by
-  // experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 1%, time 4%).
+  // experiment. Insensitive.
   RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
   // The error of an interpolation is predicted from three quantities at two sites:
   // - the change of the gradient (site_interpolation.cpp);
   // - the difference of their light, divided by this;
   // - the part of that difference that the gradients do not predict, also divided by this.
   // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by
-  // experiment. Changing it by 30% has no effect beyond noise (picture by sun; noise: error 3%, time 6%).
+  // experiment. Insensitive.
   RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
 };
 
@@ -90,7 +85,7 @@ struct CoarseSolution {
   // The side of a patch is at most this fraction of the viewing distance: derived. The edge of the patch is
   // then at most 3% farther away than its middle, sqrt(1 + .25^2). Instead of using patches, paths are
   // followed if the viewing distance or the extent of the surface is below this multiple of a patch's side.
-  // Changing it by 30% has no effect beyond noise (picture by sun; noise: error 2%, time 6%).
+  // Insensitive.
   static constexpr double kHalf = .5;
   // Sufficient side of a patch, relative to the viewing distance. Measured together with kSpacing.
   RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .09);
@@ -111,7 +106,7 @@ struct CoarseSolution {
   // The smallest patches of a surface are chosen as if its extent were at most this fraction of the scene's
   // longest side, because rooms on a wide ground are much smaller than the ground. Chosen by experiment.
   // Reducing it by 30% makes sensors by sun take 65% more time; increasing it by 30% has no effect beyond
-  // noise (noise: error below 1%, time 4%).
+  // noise.
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
   // Number of patches across a strip, such as a slat, that is narrower than the usual patches of its level
   // although its surroundings require patches smaller than the strip. Measured: with 1, sensors near a window

@@ -34,8 +34,8 @@ double unifiedGlareRating(double background, double sum) {
 double daylightGlareProbability(double illuminance, double sum) {
   constexpr double kLeast = .16;
   if (!(illuminance > 0)) return kLeast;
-  return std::min(
-      1., 5.87e-5 * illuminance + .0918 * std::log10(1 + sum / std::pow(illuminance, 1.87)) + kLeast);
+  return std::min(1.,
+                  5.87e-5 * illuminance + .0918 * std::log10(1 + sum / std::pow(illuminance, 1.87)) + kLeast);
 }
 
 GlareIndices glareIndices(double illuminance, std::span<const SeenGlare> sources, const Gaze& gaze) {

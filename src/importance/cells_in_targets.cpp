@@ -1,7 +1,5 @@
 #include "importance/cells_in_targets.h"
 
-#include <cmath>
-
 #include "importance/tuning.h"
 
 namespace rsphere {
@@ -17,11 +15,14 @@ void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
 }
 
 void scale(std::vector<CellInTarget>& cells, double total) {
-  double inside = 0, outside = 0;
-  for (const CellInTarget& cell : cells)
-    if (cell.enters) (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
+  double inside = 0, outside = 0, countOutside = 0;
+  for (const CellInTarget& cell : cells) {
+    if (!cell.enters) continue;
+    (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
+    if (cell.fitted == 0) ++countOutside;
+  }
   const double left = total - inside;
-  const bool byOutside = left > 0 && std::abs(left - outside) < tuning::CellsInTargets::kMostScaled * outside;
+  const bool byOutside = left > 0 && countOutside >= tuning::Targets::kFewestFitted;
   const double all = inside + outside;
   const double factor = byOutside ? left / outside : all > 0 ? total / all : 0;
   for (CellInTarget& cell : cells)

@@ -2,7 +2,6 @@
 // Solid angles of the directions at one point, for -Sw c. Inside a target, the cell of a direction is the
 // inverse of the density (1/sr) of all directions there.
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "importance/targets.h"
@@ -21,7 +20,7 @@ struct CellInTarget {
 // - In each fitted target, cells are scaled so that they add up to its solid angle. This removes the error
 //   due to the random number of directions inside the target, and to cells that its edge divides.
 // - All cells that enter the mean are scaled to add up to `total` (sr). Only cells outside the fitted targets
-//   change, unless the change would exceed tuning::CellsInTargets::kMostScaled.
+//   change, unless these are fewer than tuning::Targets::kFewestFitted.
 std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
 
 }  // namespace rsphere

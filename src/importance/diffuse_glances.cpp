@@ -44,7 +44,7 @@ size_t poolsFor(const SphereOptions& options) {
 // batch has enough paths to know its mean within 3% if the standard deviation of a path equals the mean.
 size_t pathsFor(const SphereOptions& options, bool daylit) {
   const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
-  const double finer = options.accuracy > 0 ? tuning::DiffuseGlances::kUsualAccuracy / options.accuracy : 0;
+  const double finer = options.accuracy > 0 ? SphereOptions::kUsualAccuracy / options.accuracy : 0;
   const double paths = std::max(least, (daylit ? tuning::DiffuseGlances::kDaylitPaths
                                                : tuning::DiffuseGlances::kPathsPerDirection) *
                                            options.baseDirections) *

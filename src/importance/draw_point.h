@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <functional>
 
-#include "image/picture_file.h"
 #include "importance/point_picture.h"
 #include "importance/seen_sources.h"
 #include "transport/transport.h"

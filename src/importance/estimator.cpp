@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
-#include <span>
 
 #include "importance/contrasts.h"
 #include "importance/equal_weights.h"

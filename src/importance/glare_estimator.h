@@ -18,7 +18,6 @@
 // Several independent sets of directions are averaged. Standard errors are jackknife estimates: each set is
 // left out in turn, and the sources are found again without it. The errors of single sources, however, are
 // computed for the directions that belong to them in the whole answer.
-#include <array>
 
 #include "importance/estimator.h"
 #include "importance/glare_answer.h"

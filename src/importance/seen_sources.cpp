@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "base/constants.h"
 #include "base/overloaded.h"
@@ -180,8 +179,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
     const double enough = isSensor(prepared_, image.source)
                               ? 1
                               : std::max({tuning::SeenSources::kUsualRays,
-                                          image.solidAngle / (tuning::SeenSources::kSmallestPart *
-                                                              tuning::SeenSources::kSmallestPart),
+                                          image.solidAngle / tuning::SeenSources::kSmallestPart,
                                           tuning::SeenSources::kSmallShare * static_cast<double>(most) /
                                               static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);

@@ -7,7 +7,7 @@
 #include "base/overloaded.h"
 #include "importance/tuning.h"
 #include "light/spherical_triangle.h"
-#include "shade/scattering.h"
+#include "scene/frame.h"
 
 namespace rsphere {
 namespace {

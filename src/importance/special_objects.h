@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/tuned.h"
@@ -37,17 +36,15 @@ double irregularity(const Material& material);
 // measured effect.
 //
 // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. Reducing
-// it by 30% changes the time by -17%, raising it by 30% by +15% (Voronoi cells; noise: error 8%, time 4%).
+// it by 30% changes the time by -17%, raising it by 30% by +15% (Voronoi cells).
 RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
 // Roughness a (rms slope) at which a highlight is half as irregular as a mirror: derived. The highlight fills
 // 4 pi a^2 sr, so that about 16 directions, four across, hit it. Raising it by 30% changes the time by +23%
-// (Voronoi cells; noise: error 5%, time 4%). Rougher balls show no images of light sources (glints.h).
+// (Voronoi cells). Rougher balls show no images of light sources (glints.h).
 inline constexpr double kSharpRoughness = .0065;
 // The value of irregularity() for glass panes. It is low because objects behind a pane look as large as
 // without it, and its reflections are faint. A pane gets 64 directions per sr, so that even the largest gets
-// only a few hundred. With the irregularity of a mirror it would take all directions. Changing the value by
-// 30% changes error and time by less than the noise of the measurement (case "Voronoi cells"; noise: 1% of
-// the error, 5% of the time).
+// only a few hundred. With the irregularity of a mirror it would take all directions. Insensitive.
 RSPHERE_TUNED(SpecialObjects, double, kPane, .002);
 // Less irregular objects are treated as diffuse: derived. At this threshold they would get 16 directions per
 // sr, a tenth of the density of the default base directions.
@@ -68,7 +65,7 @@ struct SpecialObject {
 // If octrees and meshes contain more special objects than this, each outermost instance becomes one object.
 // This limits the time, because the silhouettes of all objects are computed at every point. It is also the
 // cap on pairs of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors
-// are kept. Chosen by experiment. Changing it by 30% changes no answer of any case.
+// are kept. Chosen by experiment. Insensitive.
 RSPHERE_TUNED(SpecialObjects, size_t, kMostPlacedObjects, 4096);
 
 // All surfaces with a material of at least kSpecialIrregularity, including alternatives in mixtures; in the

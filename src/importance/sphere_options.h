@@ -31,13 +31,17 @@ struct SphereOptions {
   bool verify = false;                          // -Sv
   GlareOptions glare;                           // -Su -Sub -Sut
 
+  // The default numbers of all that points share (light paths, rays of patches) suffice down to this accuracy
+  // (-Sa). Below, these numbers grow with its inverse square, up to limits.
+  static constexpr double kUsualAccuracy = .01;
+
   // The rays of each patch of the coarse solution (RayOptions::leastForPatches). Their number grows with the
   // number of directions and with the accuracy, so that the error common to all points falls with the error
   // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): the actual errors of answers are
   // .8 to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their
   // number.
   int raysForPatches() const {
-    constexpr double kUsual = 1024, kUsualDirections = 2048, kUsualAccuracy = .01, kMost = 1e6;
+    constexpr double kUsual = 1024, kUsualDirections = 2048, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;
     const double finer = accuracy > 0 ? kUsualAccuracy / accuracy : 0;
     return static_cast<int>(

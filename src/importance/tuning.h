@@ -7,13 +7,12 @@
 //
 // Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
 // best of some values that were tried on scenes like those of tests/bench/importance; the results of the
-// others were not kept. The effect of changing a constant by 30% is from tests/bench/sensitivity
-// (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again). The case in parentheses is the one
-// in which answers change most; "noise" is the standard error of the measured effect. "Changes no answer"
-// holds for all cases.
+// others were not kept. "Insensitive": changing it by 30% had no effect beyond noise in
+// tests/bench/sensitivity (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again).
 #include <array>
 #include <cstddef>
 
+#include "base/constants.h"
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
@@ -23,16 +22,14 @@ struct Contrasts {
   // Rays to the special objects of one modifier; twice as many paths sample the typical view. Chosen by
   // experiment. For normally distributed values, the standard deviation is then known within 9%, 1/sqrt(2 x
   // 63). To limit the time at start, all modifiers together get Caps::kAsked rays, but each at least 2: with
-  // separate rays for each object, the start took 1.1 s instead of .05 s. Changing it by 30% has no effect
-  // beyond noise (points in office; noise: error 7%, time 6%).
+  // separate rays for each object, the start took 1.1 s instead of .05 s. Insensitive.
   RSPHERE_TUNED(Contrasts, size_t, kRays, 64);
 };
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
   // Base directions for each direction to images of light sources; the latter are at least
-  // SeenSources::kUsualRays. Chosen by experiment. Changing it by 30% has no effect beyond noise (points in
-  // office; noise: error 8%, time 6%).
+  // SeenSources::kUsualRays. Chosen by experiment. Insensitive.
   RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
 };
 
@@ -60,12 +57,10 @@ struct DiffuseGlances {
   // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
   // of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
-  // The same by daylight through openings, where a path costs twice as much. With 16, the error is 10 to 40%
-  // larger, and the program starts in .14 instead of .2 s.
-  RSPHERE_TUNED(DiffuseGlances, double, kDaylitPaths, 32);
-  // Accuracy (-Sa) down to which this number of light paths suffices. Below, their number grows with the
-  // inverse square of the accuracy.
-  RSPHERE_TUNED(DiffuseGlances, double, kUsualAccuracy, .005);
+  // The same by daylight through openings, where a path costs twice as much: half of it, so that the paths of
+  // both take the same time. With a quarter, the error is 10 to 40% larger, and the program starts in .14
+  // instead of .2 s.
+  static inline const double kDaylitPaths = kPathsPerDirection / 2;
   // Assumed mean radiance of light that glances miss, as a fraction of that which they find. It is the
   // reference for the variance of targets. With .3 or 1, single answers are off by 6% where brushed steel
   // reflects the goal. With .03, the time is 1.15 times as long, without an effect on the error beyond noise.
@@ -75,14 +70,13 @@ struct DiffuseGlances {
 // The regions that get extra directions (targets.cpp).
 struct Targets {
   // An image of a light source in a ball becomes a target if it would otherwise add more than this fraction
-  // of the variance of all base directions: chosen by experiment. Changing it by 30% has no effect beyond
-  // noise (points in office; noise: error below 1%, time 7%).
+  // of the variance of all base directions: chosen by experiment. Insensitive.
   RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
   // Standard deviation of the brightness within a partly lit region, relative to the brightness of its lit
   // part: derived. .5 is the largest possible value, and holds if half of the region is lit. Measurements for
   // the three kinds of regions confirm it:
   // - Images of light sources in balls. Reducing it by 30% changes the error by +12%, raising it by 30% by
-  //   -20% (points beside chrome; noise: error 5%).
+  //   -20% (points beside chrome).
   // - Openings that show daylight, in a room with a window onto a house below an uneven sky. Errors of 512
   //   directions; the times are equal within noise:
   //   value                            no targets   0      .1     .25    .5
@@ -103,26 +97,14 @@ struct Targets {
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
 };
 
-// The cells of directions in targets (cells_in_targets.cpp).
-struct CellsInTargets {
-  // Largest relative change of the cells outside targets. If they would have to change more, all cells are
-  // scaled. Chosen without measurement: it matters only where targets fill nearly the whole sphere.
-  RSPHERE_TUNED(CellsInTargets, double, kMostScaled, .25);
-};
-
 // Light sources that are integrated separately (seen_sources.cpp).
 struct SeenSources {
-  // Side (rad) of squares in the image of a source. The cap on the rays to one image is the largest of
-  // kUsualRays, one ray for each square, and kSmallShare times an even share of all rays to images. Without
-  // the squares, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5% (2048
-  // base directions). Changing it by 30% changes no answer.
-  RSPHERE_TUNED(SeenSources, double, kSmallestPart, .02);
-  // The fraction of an even share in that cap. With it, the error for a small half-hidden lamp falls from
-  // 4.2% with 256 base directions to .33% with 16384; without it, the error stays at 4.2%.
+  // The fraction of an even share of all rays in the cap on the rays to one image (kSmallestPart). With it,
+  // the error for a small half-hidden lamp falls from 4.2% with 256 base directions to .33% with 16384;
+  // without it, the error stays at 4.2%.
   //
   // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
-  // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Changing it by 30%
-  // has no effect beyond noise (points in workshop; noise: error 17%, time 7%).
+  // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Insensitive.
   RSPHERE_TUNED(SeenSources, double, kSmallShare, .1);
   // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
   // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
@@ -139,6 +121,11 @@ struct SeenSources {
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
   // The cap on the rays to a small image of a source, as many as the shadow rays of one cell.
   static inline const double kUsualRays = static_cast<double>(kShadowsAlong * kShadowsAlong);
+  // Solid angle (sr) in the image of a source for each of which a ray is allowed: derived. The cell of one of
+  // the usual 2048 base directions gets kUsualRays. The cap on the rays to one image is the largest of
+  // kUsualRays, one for each such part, and kSmallShare times an even share of all rays to images. Without
+  // the parts, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5%.
+  RSPHERE_DERIVED(SeenSources, double, kSmallestPart, 4 * kPi / 2048 / (kShadowsAlong * kShadowsAlong));
 };
 
 // Regions of directions used in place of exact silhouettes (silhouette.cpp, silhouette_index.cpp).
@@ -150,8 +137,7 @@ struct Silhouettes {
   RSPHERE_DERIVED(Silhouettes, double, kWidestHull, 1.5);
   // Corners of the polygon around a circle: derived. The polygon's area is 1.3% larger than the circle's, so
   // that 1.3% of the directions to it miss the object. When searching for images on balls, light sources with
-  // more corners are replaced by squares around them. Changing it by 30% has no effect beyond noise (points
-  // beside chrome; noise: error below 1%, time 8%).
+  // more corners are replaced by squares around them. Insensitive.
   static constexpr int kCorners = 16;
   // Cells along each edge of a face of the cube that lists the silhouettes near a direction: chosen by
   // experiment. Without cells, the search among 180 special objects took 18% of the time. The number only
@@ -183,14 +169,14 @@ struct ErrorEstimate {
   //   luminous ceiling behind 36 balls          .67 to .88   .94 to 1.24
   //   lamp of .1 m, half hidden                 .69          .98
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
-  // Changing it by 30% changes no answer.
+  // Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
   // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
   // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number
   // of directions that cause the variance. With the number of all directions, errors were understated beside
   // a chrome ball, where 1 to 5 of 3400 directions find twice mirrored lamps: the actual deviation was 1.6
   // times the stated one, and 2% of the answers were off by more than six stated errors. Now the ratio is .9,
-  // and no answer is. Changing it by 30% changes no answer.
+  // and no answer is. Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
   // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction
@@ -208,8 +194,7 @@ struct ErrorEstimate {
 struct Stopping {
   // Each half requests sets until its standard error is below this multiple of the requested one: measured.
   // One answer in 50, instead of 25, then needs further sets because its own error estimate is too large.
-  // Those sets cause the remaining bias. Changing it by 30% has no effect beyond noise (stopping; noise:
-  // error 1%, time 6%).
+  // Those sets cause the remaining bias. Insensitive.
   RSPHERE_TUNED(Stopping, double, kMargin, .95);
   // Cap on the ratio between the halves' numbers of sets: derived. If a set finds something very bright, the
   // other half gets many sets. Because of the cap, the half of the bright set also gets some, which outweigh
@@ -224,22 +209,22 @@ struct Dark {
   // warning names the point if less than this fraction of the directions find light. Derived: it is two of
   // the usual 2048 directions, whose mean is known within 71%. In closed metal furniture, one direction in a
   // hundred thousand finds a gap between surfaces; a million directions could not measure its light within a
-  // percent. Changing it by 30% changes no answer.
+  // percent. Insensitive.
   static constexpr double kShare = 2. / 2048;
 };
 
 // Pictures of the view from a point (draw_point.cpp, pixel_tracer.cpp, smooth_light.cpp).
 struct Pictures {
-  // Height of a fisheye in pixels: the least that evalglare(1) of RADIANCE recommends. It is not tuned;
+  // Height of a fisheye in pixels: the least that evalglare(1) of RADIANCE recommends.
   // tests/bench/sensitivity draws smaller pictures.
-  RSPHERE_TUNED(Pictures, int, kFisheyeSide, 800);
+  RSPHERE_DERIVED(Pictures, int, kFisheyeSide, 800);
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of
   // 1.4 pixels it would be 38%; with separate samples it is .1%.
   //
   // It is also the number of samples of such a source per covered pixel, and the minimum per source:
   // measured. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16
-  // they lose 1 to 3.5%. Changing it by 30% changes no answer.
+  // they lose 1 to 3.5%. Insensitive.
   static constexpr double kSmallest = 16;
   // Offsets from the middle of a pixel (in pixels) of the rays that look for the background behind a small
   // source: chosen by experiment.
@@ -250,22 +235,22 @@ struct Pictures {
   static constexpr int kSharing = 2;
   // The same where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:
   // chosen by experiment in the open-plan office. With 2, the error changes by -21%, with 4 by +26% (picture
-  // from point with 1% of the pixels; noise: error 4%, time 6%).
+  // from point with 1% of the pixels).
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
   // Smoothing passes for indirect light: chosen by experiment. With 2, the error changes by +10%; with 4, no
-  // effect beyond noise (picture from point; noise: error 1%, time 6%).
+  // effect beyond noise (picture from point).
   RSPHERE_TUNED(Pictures, int, kIndirectPasses, 3);
   // Largest relative difference of light between pixels that share it in further passes, for indirect and
-  // direct light: chosen by experiment. The noise after the first passes is 2 to 5%.
-  RSPHERE_TUNED(Pictures, float, kSameLight, .14f);
+  // direct light: derived. The noise after the first passes is at most 5%, so that this is two standard
+  // deviations of the difference of two pixels, 2 x 2^1/2 x 5%.
+  static constexpr float kSameLight = .14f;
   // Number of times that the direct light of a noisy pixel in a soft shadow is traced again: chosen by
   // experiment. The picture of examples/idea takes 10% longer, and the edge of its shadow becomes smooth.
   static constexpr int kRepeats = 8;
   // Smoothing passes for gloss, which is also the number of further passes for other light; and least
   // roughness of surfaces whose pixels share gloss: derived. The lobe is then about as wide as the blur of
   // two passes, 2.2 pixels or .014 radians. With 1 or 3 further passes for other light, no effect beyond
-  // noise (picture from point; noise: error below 1%, time 6%), but with 3 a glossy desk below a window looks
-  // rougher.
+  // noise (picture from point), but with 3 a glossy desk below a window looks rougher.
   static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
   // Least cosine between the normals of pixels that share gloss: derived. It corresponds to 2 degrees, less
@@ -274,7 +259,7 @@ struct Pictures {
   // Visible difference between neighboring pixels, on an sRGB scale of 0 to 1. Where it is exceeded, four
   // rays near the corners of the pixel are added; if these differ as much, four near the middles of its
   // sides. Chosen by experiment. Reducing it by 30% changes the error by -2%, raising it by 30% by +3%
-  // (picture from point; noise: error below 1%, time 6%).
+  // (picture from point).
   RSPHERE_TUNED(Pictures, double, kVisible, .05);
   static constexpr std::array<std::array<double, 2>, 8> kAround = {{{-1 / 3., -1 / 3.},
                                                                     {1 / 3., -1 / 3.},
@@ -291,8 +276,8 @@ struct Pictures {
   // Two pixels share light if their surface points are close together and nearly in one plane. The limit on
   // the distance between the points is this fraction of the distance from the eye. The limit on the height of
   // one point over the other's plane is this fraction of the distance between them. Chosen by experiment. If
-  // the fraction is 30% lower, the error is 25% larger; if it is 30% higher, the error is 13% smaller (case
-  // "picture from point" with 1% of the pixels, which makes edges weigh more; noise: 2% of the error).
+  // the fraction is 30% lower, the error is 25% larger; if it is 30% higher, the error is 13% smaller (with
+  // 1% of the pixels, which makes edges weigh more).
   RSPHERE_TUNED(Pictures, float, kNear, .25f);
 };
 

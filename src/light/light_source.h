@@ -27,7 +27,7 @@ struct PlaneLight {
 
   V3d normal{0, 0, 0};  // unit
   double area = 0;
-  V3d u{0, 0, 0}, v{0, 0, 0};  // of Square and Fan: half the sides of a square of equal area
+  V3d u{0, 0, 0}, v{0, 0, 0};       // of Square and Fan: half the sides of a square of equal area
   double extentU = 0, extentV = 0;  // half the source's size along u and v, which determines how it is split
   std::variant<Parallelogram, Square, Disk, Fan> map{};
 };
@@ -56,13 +56,13 @@ inline constexpr size_t kLightForms =
 // position and an extent, and can only be seen through its relay.
 struct LightSource {
   SurfaceId surface{};  // of a virtual source: its relay, which a ray to the source hits first
-  LightId relayed{};  // the source that the relay shows; kNone: this is a real source
-  int32_t image = 0;  // index among the images that its relay makes of that source
-  V3d center{0, 0, 0};   // of a distant source, the direction to it (unit)
-  double radius = 0;     // of its bounding sphere around center (world units); 0 for distant sources
+  LightId relayed{};    // the source that the relay shows; kNone: this is a real source
+  int32_t image = 0;    // index among the images that its relay makes of that source
+  V3d center{0, 0, 0};  // of a distant source, the direction to it (unit)
+  double radius = 0;    // of its bounding sphere around center (world units); 0 for distant sources
   // Largest distance of its points from center; for a distant source, the sine of its half-angle.
   double outermost = 0;
-  double reach = 0;      // beyond this distance (world units) it lights nothing directly; 0: no limit
+  double reach = 0;  // beyond this distance (world units) it lights nothing directly; 0: no limit
   std::optional<Spotlight> spot{};
   // Of a virtual source: a beam from the image's center that contains every point the source lights. A
   // distant image has no center; its beam contains all directions.

@@ -1,6 +1,5 @@
 #include "light/relay_tree.h"
 
-#include <algorithm>
 #include <numeric>
 
 namespace rsphere {

@@ -11,7 +11,7 @@
 #include "base/overloaded.h"
 #include "light/penumbra.h"
 #include "light/relay_tree.h"
-#include "shade/scattering.h"
+#include "scene/frame.h"
 
 namespace rsphere {
 namespace {

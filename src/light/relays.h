@@ -10,7 +10,6 @@
 // (bounded by planes through the exact corners of source and relays: penumbra.h). RADIANCE also sends test
 // rays (-dp): it drops an image if all of them are blocked, and omits its shadow tests if none is. Here every
 // image is tested for shadows, as with RADIANCE's -dp 0.
-#include <vector>
 
 #include "light/light_source.h"
 #include "shade/surface_functions.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "shade/scattering.h"
 
 namespace rsphere {
 namespace {

@@ -18,7 +18,7 @@ struct SourceSample {
   V3d direction{0, 0, 0};
   double solidAngle = 0;
   double distance = 0;  // to the hit on the source or on the relay of a virtual source; 1e10 if distant
-  double cosine = 1;  // at the hit, positive on the front
+  double cosine = 1;    // at the hit, positive on the front
   V3d normal{0, 0, 0};
   LightId source;
 };
@@ -26,7 +26,7 @@ struct SourceSample {
 // How a source is sampled.
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
-  double jitter = 0;  // size of the jittered region relative to the part (-dj), 0 to 1
+  double jitter = 0;   // size of the jittered region relative to the part (-dj), 0 to 1
   // Normal (unit) of the surface at the point. Sources that lie entirely behind its plane are omitted; 0:
   // none is omitted.
   V3d front{0, 0, 0};

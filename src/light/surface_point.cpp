@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/overloaded.h"
-#include "shade/scattering.h"
+#include "scene/frame.h"
 
 namespace rsphere {
 namespace {

@@ -2,17 +2,15 @@
 // The tuning constants of this folder (base/tuned.h). They affect the variance of direct light and the
 // computing time, but not the mean.
 //
-// Each comment gives the meaning, the unit and the origin of the value. The effect of changing a constant by
-// 30% is from tests/bench/sensitivity (runs/2026-11-22.txt). The case in parentheses is the one in which
-// answers change most; "noise" is the standard error of the measured effect.
+// Each comment gives the meaning, the unit and the origin of the value. "Insensitive": changing it by 30% had
+// no effect beyond noise in tests/bench/sensitivity (runs/2026-11-22.txt).
 namespace rsphere::tuning {
 
 // How light sources are divided into parts and sampled (sources.cpp).
 struct SourceParts {
   // A part of a plane source is sampled by solid angle instead of by area if its width, relative to its
   // distance, is larger than this: derived. The edge of a narrower part is at most 3% farther away than its
-  // middle, sqrt(1 + .25^2), so that cosine / distance^2 varies little over it. Changing it by 30% has no
-  // effect beyond noise (points in workshop; noise: error below 1%, time 4%).
+  // middle, sqrt(1 + .25^2), so that cosine / distance^2 varies little over it. Insensitive.
   static constexpr double kNear = .5;
 };
 

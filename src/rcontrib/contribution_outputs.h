@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "answer/record_writer.h"
 #include "rcontrib/output_names.h"
 
 namespace rsphere {

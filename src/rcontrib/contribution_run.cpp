@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <memory>
-
 #include "answer/answer_rays.h"
 #include "answer/batch.h"
 #include "answer/load_scene.h"
-#include "answer/threads.h"
 #include "cli/program.h"
 #include "contrib/tracked.h"
 #include "rcontrib/contribution_outputs.h"

@@ -1,7 +1,6 @@
 #include "report/markup.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace rsphere {

@@ -1,7 +1,6 @@
 #include "scene/fingerprint.h"
 
 #include <cstring>
-#include <string>
 #include <unordered_set>
 
 #include "rad_parser/open_file.h"

@@ -1,7 +1,6 @@
 #include "scene/material_questions.h"
 
 #include <cmath>
-#include <span>
 
 #include "base/overloaded.h"
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"

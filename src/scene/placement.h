@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "rad_parser/xform.h"
 #include "scene/shape.h"

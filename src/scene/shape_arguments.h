@@ -6,7 +6,6 @@
 // Where RADIANCE warns and ignores the surface, it does the same and returns nothing.
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "scene/arguments.h"
 #include "scene/shape.h"

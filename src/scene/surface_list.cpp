@@ -1,7 +1,6 @@
 #include "scene/surface_list.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace rsphere {
 

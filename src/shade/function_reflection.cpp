@@ -1,7 +1,5 @@
 #include "shade/function_reflection.h"
 
-#include <cmath>
-
 namespace rsphere {
 namespace {
 

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "rad_parser/block.h"
-#include "rad_parser/description.h"
 #include "rad_parser/error.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/constants.h"
-
 namespace rsphere {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <system_error>
 
 #include "rad_parser/file_path.h"

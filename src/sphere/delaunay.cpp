@@ -1,6 +1,5 @@
 #include "sphere/delaunay.h"
 
-#include <cmath>
 #include <limits>
 
 namespace rsphere {

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sphere/two_parts.h"
-
 namespace rsphere {
 namespace {
 

@@ -34,7 +34,6 @@ constexpr uint64_t kReferenceRotation = uint64_t{1} << 30;
 constexpr size_t kLeastRotations = 8, kMostRotations = 100000;
 // Minimum number of answers of each setting for which estimated errors are collected.
 constexpr size_t kEstimates = 8;
-constexpr double kUsualAccuracy = .01;
 // If a signal ends the measurement of a setting early, it is reported only if it has this number of repeats,
 // which is sufficient to estimate its bias.
 constexpr size_t kLeastRepeats = 2;
@@ -262,7 +261,8 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
 }
 
 void Trade::run() {
-  const double accuracy = options_.sphere.accuracy > 0 ? options_.sphere.accuracy : kUsualAccuracy;
+  const double accuracy =
+      options_.sphere.accuracy > 0 ? options_.sphere.accuracy : SphereOptions::kUsualAccuracy;
   std::vector<std::vector<std::string>> settings = ladder(options_);
   std::vector<Setting> parsed;
   for (const auto& words : settings) {

@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "answer/answer_points.h"
 #include "answer/stop_signals.h"

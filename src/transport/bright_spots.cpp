@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/constants.h"
 #include "base/vector_widths.h"
-#include "shade/scattering.h"
+#include "scene/frame.h"
 #include "transport/light_particles.h"
 #include "transport/panes.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {

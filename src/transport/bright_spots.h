@@ -1,5 +1,5 @@
 #pragma once
-// Patches of strong direct light on diffuse surfaces, such as the inside of a lampshade, a partition at the
+// Spots of strong direct light on diffuse surfaces, such as the inside of a lampshade, a partition at the
 // edge of an importance goal, or a sunlit sill. They are small and bright, and cause most of the variance of
 // indirect light if rays hit them only by chance. Some rays are therefore aimed at them, with multiple
 // importance sampling (balance heuristic: Veach and Guibas 1995, "Optimally combining sampling techniques for

@@ -1,7 +1,6 @@
 #pragma once
 // Traces the rays that the irradiance cache and the coarse solution request (field/field_rays.h).
 #include "field/field_rays.h"
-#include "transport/path_state.h"
 #include "transport/prepared_scene.h"
 #include "transport/ray_follower.h"
 

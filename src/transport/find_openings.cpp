@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "base/constants.h"
 #include "scene/even_sequence.h"
 #include "scene/random.h"
 #include "shade/scattering.h"

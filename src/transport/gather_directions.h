@@ -2,7 +2,6 @@
 // The directions of a gather. Most are distributed by projected solid angle; the others are aimed at daylight
 // openings, at bright spots, and at highlights on rough balls and cylinders. Each is weighted by the density
 // of the whole mixture in its direction (multiple importance sampling with the balance heuristic).
-#include <array>
 
 #include "scene/random.h"
 #include "transport/aims.h"

@@ -1,7 +1,6 @@
 #pragma once
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed
 // (ball_highlights.h, cylinder_highlights.h).
-#include <algorithm>
 
 #include "transport/ball_highlights.h"
 #include "transport/cylinder_highlights.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/constants.h"
 #include "transport/tuning.h"
 
 namespace rsphere {

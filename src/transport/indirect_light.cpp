@@ -249,7 +249,7 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
 }
 
 // With -Sh, the first gather of a path sends this number of times as many rays as continue from their first
-// surface. The light at the end of these rays, such as patches of sky seen through windows, causes most of
+// surface. The light at the end of these rays, such as parts of the sky seen through windows, causes most of
 // the variance of contributions by bin, but later bounces take most of the time. Not used if there are light
 // sources, because each ray would then sample them.
 int IndirectLight::firstRays() const {

@@ -6,7 +6,6 @@
 // coarse solution is used at the first surface too. At sensors (-I), light is not interpolated but gathered,
 // with more rays where the gather is noisy. With -aa 0, light is gathered from -ad + -as stratified
 // directions at the first diffuse surface, and from the same number as in RADIANCE at later ones.
-#include "field/coarse_solution.h"
 #include "field/irradiance_field.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"

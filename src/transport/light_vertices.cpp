@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/constants.h"
 #include "shade/scattering.h"
 #include "transport/light_particles.h"
 #include "transport/tuning.h"
@@ -424,7 +423,7 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 double NearLight::closeShare(double distance, double fromEye) const {
   // The share is cut off beyond ten times the distance at which it is 1/2, so that it is 0 for most vertices.
   constexpr double kRest = 1. / 101;
-  const double close = tuning::LightVertices::kClose * std::min(meanLength, fromEye);
+  const double close = tuning::LightVertices::kWidth * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
   return std::max(0., (share - kRest) / (1 - kRest));
 }

@@ -1,7 +1,5 @@
 #include "transport/openings.h"
 
-#include <algorithm>
-
 #include "base/constants.h"
 
 namespace rsphere {

@@ -1,7 +1,6 @@
 #pragma once
 // The light beyond portals (portals.h), as paths from the eye find it. Light paths receive it as a function,
 // because PathTracer, which computes it, is itself built on them.
-#include <cstdint>
 #include <vector>
 
 #include "base/radiometry.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/ray_functions.h"
-
 namespace rsphere {
 
 Coefficient transmittanceOf(const Color& extinction, double length) {

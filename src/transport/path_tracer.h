@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "transport/outdoor_light.h"
 #include "transport/path_observer.h"
 #include "transport/path_state.h"
 #include "transport/prepared_scene.h"

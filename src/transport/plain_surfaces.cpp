@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/constants.h"
 #include "shade/scattering.h"
 
 namespace rsphere {

@@ -60,7 +60,7 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
     seen_.push_back({&p, shape, sum});
   }
   for (Seen& s : seen_) s.upTo /= sum;
-  if (sum > 0) aimed_ = tuning::Portals::kAimed;
+  if (sum > 0) aimed_ = tuning::GatherDirections::kAimed;
 }
 
 double PortalDirections::density(const V3d& direction) const {

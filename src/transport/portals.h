@@ -2,7 +2,6 @@
 // Openings (openings.h) as the light sources of paths from both ends. A path from the eye that leaves through
 // a portal, from its dark side to its bright side, ends there: all light that comes from beyond is light of
 // the portal, however it got there. So no path of light is counted twice, whatever is outdoors.
-#include <optional>
 #include <span>
 #include <vector>
 

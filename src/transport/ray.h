@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/radiometry.h"
-#include "scene/scene.h"
 #include "shade/ray_kind.h"
 #include "shade/scattering.h"
 #include "trace/tracer.h"

@@ -1,6 +1,5 @@
 #pragma once
 // Constants and small functions for rays that the parts of PathTracer share.
-#include <cmath>
 
 #include "base/constants.h"
 #include "scene/material.h"

@@ -1,6 +1,5 @@
 #include "transport/ray_limits.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "transport/ray_functions.h"

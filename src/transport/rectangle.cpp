@@ -1,6 +1,5 @@
 #include "transport/rectangle.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace rsphere {

@@ -1,7 +1,5 @@
 #pragma once
-#include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "light/source_choice.h"

@@ -142,8 +142,8 @@ SourceEmission::Way SourceEmission::way(LightId source, Random& random, Function
   return way;
 }
 
-// Estimates the power of a source that is not even, from random directions. The result is always above 0,
-// because these directions may miss all of its light.
+// Estimates the power of a source that is not even, from random directions. One more direction is assumed to
+// show the source without patterns, so that the result is above 0 even if the others miss all of its light.
 double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;
@@ -155,7 +155,7 @@ double SourceEmission::triedPower(LightId source) const {
   const Scene& scene = prepared_.scene();
   const double plain =
       brightness(sourceRadiance(scene, scene.surfaces[prepared_.lights().all()[source].surface]));
-  return kPi * senders_[source].area * (sum / tuning::Caps::kAsked + tuning::SourceEmission::kMissed * plain);
+  return kPi * senders_[source].area * (sum + plain) / tuning::Caps::kAsked;
 }
 
 double SourceEmission::divergence(LightId source, double distance) const {

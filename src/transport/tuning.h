@@ -3,10 +3,9 @@
 // computing time. Those of Interpolation also affect the mean, as -aa does.
 //
 // Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
-// best of some values that were tried on furnished rooms; the results of the others were not kept. The effect
-// of changing a constant by 30% is from tests/bench/sensitivity (runs/2026-11-22.txt). The case in
-// parentheses is the one in which answers change most; "noise" is the standard error of the measured effect.
-// "Changes no answer" holds for all cases.
+// best of some values that were tried on furnished rooms; the results of the others were not kept.
+// "Insensitive": changing it by 30% had no effect beyond noise in tests/bench/sensitivity
+// (runs/2026-11-22.txt).
 #include <cstddef>
 
 #include "base/tuned.h"
@@ -20,12 +19,11 @@ struct Caps {
   // - the openings, the spots and the highlights on balls at which rays from one point are aimed;
   // - the parts of sources of which one ball shows highlights.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
-  // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Changing it by
-  // 30% has no effect beyond noise (sensors by sun; noise: error 5%, time 4%).
+  // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Insensitive.
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
-  // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. Changing
-  // it by 30% changes no answer.
+  // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept.
+  // Insensitive.
   //
   // The same number is used for
   // - the light paths that measure the mean distance from the sources to the first surfaces,
@@ -39,18 +37,16 @@ struct Caps {
   // (as a minimum) to each opening that may matter there. Chosen by experiment. A mean is then known within
   // 18% if single values vary as much as their mean.
   // - For panes, changing it by 30% either way increases the time by 30%, because other panes are then
-  //   classified as openings (sensors by panes; noise: error 19%, time 4%).
-  // - For points, changing it by 30% has no effect beyond noise (points beside goal; noise: error 16%, time
-  //   7%).
+  //   classified as openings.
+  // - For points: insensitive.
   RSPHERE_TUNED(Caps, int, kProbes, 32);
 };
 
-// Patches of strong direct light, at which indirect rays are aimed (bright_spots.cpp).
+// Spots of strong direct light, at which indirect rays are aimed (bright_spots.cpp).
 struct BrightSpots {
   // Number of particles traced from the sources; the same number is traced from distant sources through
   // openings. Derived: if all of them hit spots, a spot is hit by 128 on average, and its power is known
-  // within 9%, 1/sqrt(128). 80 particles find a spot that reflects a hundredth of the light. Changing it by
-  // 30% has no effect beyond noise (sensors by sun; noise: error 9%, time 5%).
+  // within 9%, 1/sqrt(128). 80 particles find a spot that reflects a hundredth of the light. Insensitive.
   static inline const double kParticles = 128. * Caps::kAimed;
   // A spot reflects at least this many times as much light per area as the mean of all surfaces. Chosen by
   // experiment. For light that enters through openings, the threshold is half of this, because few rays of a
@@ -67,8 +63,8 @@ struct BrightSpots {
   //   room with a lit lampshade         31               one third
   //   open-plan office, around a goal    8               two thirds
   //   small room, around a goal          2               slightly less than 1
-  // Changing it by 30% changes no answer. For light that enters through openings, no minimum worth is
-  // required; in the same classroom the relative worth is 2.3.
+  // Insensitive. For light that enters through openings, no minimum worth is required; in the same classroom
+  // the relative worth is 2.3.
   RSPHERE_TUNED(BrightSpots, double, kBrighter, 5);
 };
 
@@ -92,8 +88,7 @@ struct Holes {
 struct Openings {
   // Panes and holes are ignored if their area is below this fraction of a wall as wide and as high as the
   // scene, because each opening costs time in each gather. Derived: a window of 6 x 6 cm is found in a room
-  // of 3 m on a ground of 1 km, and a door of 2 m2 in a city of 10 km by 200 m. Changing it by 30%
-  // changes no answer.
+  // of 3 m on a ground of 1 km, and a door of 2 m2 in a city of 10 km by 200 m. Insensitive.
   static constexpr double kLeastArea = 1e-6;
   // A pane or hole is an opening if one side is at least this many times brighter than the other. Typical
   // ratios:
@@ -139,8 +134,6 @@ struct Portals {
   // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
   // classroom, would be lost.
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
-  // The fraction of the rays for the light of portals that are aimed at them.
-  RSPHERE_TUNED(Portals, double, kAimed, .75);
 };
 
 // The balance between shadow rays and samples of the lobe in the estimate of rough highlights of sources
@@ -162,7 +155,8 @@ struct GatherDirections {
   //   value   variance x time in the four rooms
   //   .5      1.3  .9   1    1
   //   .3      7.8  2.4  1.1  1.2
-  // For spots, the results from .5 to .9 do not differ beyond noise.
+  // For spots, the results from .5 to .9 do not differ beyond noise. It is also the fraction of the rays for
+  // the light of portals that are aimed at them.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
   // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
   // near openings, where rooms are brighter than farther inside. Measured:
@@ -193,8 +187,7 @@ struct Highlights {
   // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. Measured for
   // spherical means in the same office: relative to no aiming at balls, the work for the same noise increases
   // by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single highlight
-  // on cylinders, because many of them add up. Changing it by 30% has no effect beyond noise (picture of
-  // office; noise: error below 1%, time 6%).
+  // on cylinders, because many of them add up. Insensitive.
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
   // wider part would be noticeably curved. Also for the parts of sources whose images in mirroring balls are
@@ -202,13 +195,12 @@ struct Highlights {
   static constexpr double kHalf = SourceParts::kNear / 2;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region around the image of a source in a mirroring ball (importance/glints.h) to that image.
-  // Without this margin, few directions would hit the edge, and a part of the image would be lost. Changing
-  // it by 30% has no effect beyond noise (points beside chrome; noise: error 9%, time 1%).
+  // Without this margin, few directions would hit the edge, and a part of the image would be lost.
+  // Insensitive.
   RSPHERE_TUNED(Highlights, double, kWider, 1.2);
   // Lower bound on cosines, for surfaces seen edge-on. It is used for reflections, whose highlight would have
   // no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a cylinder's
-  // axis and a distant source. Changing it by 30% has no effect beyond noise (sensors by sun; noise: error
-  // 5%, time 5%).
+  // axis and a distant source. Insensitive.
   RSPHERE_TUNED(Highlights, double, kEdgeOn, .05);
 };
 
@@ -216,13 +208,11 @@ struct Highlights {
 struct Interpolation {
   // Light is interpolated unless a texture tilts the normal by an angle whose cosine is below this. Chosen by
   // experiment. For more tilted normals, the moments of gathered light are less accurate. Reducing it by 30%
-  // has no effect beyond noise; increasing it by 30% reduces the time by 23% (picture of workshop; noise:
-  // error 13%, time 4%).
+  // has no effect beyond noise; increasing it by 30% reduces the time by 23% (picture of workshop).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
   // Number of rays that estimate the distances around a site (root mean square and harmonic mean): derived.
   // If single distances vary as much as their mean, that is known within 25%, half of the step between the
-  // sides of cells, which are powers of two. Changing it by 30% has no effect beyond noise (picture by sun;
-  // noise: error 3%, time 5%).
+  // sides of cells, which are powers of two. Insensitive.
   static constexpr int kReachRays = 16;
 };
 
@@ -234,20 +224,13 @@ struct LightVertices {
   // (NearLight::share()). Joins of a point with light paths hardly increase in number below it
   // (DiffuseGlances). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no
   // effect beyond noise.
+  //
+  // It is also the distance at which those rays leave half of their light to joins with the eye
+  // (NearLight::closeShare()), relative to the smaller of the distance from the eye and the mean distance.
+  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of
+  // 2 mm between a sheet of paper and the goal. Measured for this use: with .01, the error around the goal is
+  // 10% larger, in a tenth less time; .4 has no effect beyond noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
-  // Distance between diffuse surfaces at which those rays leave half of their light to joins with the eye
-  // (NearLight::closeShare()). It is relative to the smaller of the distance from the eye and the mean
-  // distance. Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees
-  // a gap of 2 mm between a sheet of paper and the goal. Measured: with .01, the error around the goal is 10%
-  // larger, in a tenth less time; .4 has no effect beyond noise.
-  RSPHERE_TUNED(LightVertices, double, kClose, .1);
-};
-
-// Light that leaves sources (source_emission.h).
-struct SourceEmission {
-  // Radiance that is added to the estimated power of a source with a pattern or a cone, because the
-  // directions of the estimate may miss light. It is relative to the source's radiance without patterns.
-  RSPHERE_TUNED(SourceEmission, double, kMissed, .01);
 };
 
 // The light of vertices at a place (vertex_light.h).

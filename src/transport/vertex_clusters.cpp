@@ -1,7 +1,6 @@
 #include "transport/vertex_clusters.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -86,7 +85,7 @@ inline float squareAbove(float x) {
 }  // namespace
 
 // Repeatedly halves the cluster with the largest product of power and extent, until the number of clusters is
-// reached. The root of the power is used if a patch of sunlight may have most of the power. It would
+// reached. The root of the power is used if a spot of sunlight may have most of the power. It would
 // otherwise get most of the clusters, and the others would be so large that a place beside a wall would
 // seldom draw the vertices next to it.
 VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices, bool uneven) {
@@ -204,7 +203,7 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
     const float there = meanAbove(-(x * axis.x[i] + y * axis.y[i] + z * axis.z[i]),
                                   halfAlong[i] + sine[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
     const float mean = square + spread[i];
-    // By daylight, clusters are large where patches of sunlight have taken most of them. A large cluster
+    // By daylight, clusters are large where spots of sunlight have taken most of them. A large cluster
     // sends most of its light from where it is nearest.
     const float nearest = squareAbove(std::abs(x) - half.x[i]) + squareAbove(std::abs(y) - half.y[i]) +
                           squareAbove(std::abs(z) - half.z[i]);

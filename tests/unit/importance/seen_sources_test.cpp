@@ -170,7 +170,8 @@ TEST(SeenSources, WideSourcesGetAllRays) {
   const char* ceiling = "lamp polygon l 0 0 12 -3 -3 2.5 -3 3 2.5 3 3 2.5 3 -3 2.5\n";
   EXPECT_NEAR(raysTo(ceiling, 512), 512, 1) << "64 would leave six times the error behind objects";
   const double solidAngle = capOf(.4, 3);
-  EXPECT_NEAR(raysTo("lamp sphere l 0 0 4 0 0 3 .4\n", 512), solidAngle / (.02 * .02), 1);
+  EXPECT_NEAR(raysTo("lamp sphere l 0 0 4 0 0 3 .4\n", 512), solidAngle / (4 * kPi / 2048 / 16), 1)
+      << "as many as sixteen for each cell of 2048 directions";
 }
 
 TEST(SeenSources, DistantSourcesOfAnyWidthAreIntegratedSeparately) {
