@@ -23,8 +23,7 @@ template <class Object>
 void passOverCells(BinaryReader& input, int width, Object object) {
   for (uint64_t open = 1; open > 0; --open) {  // cells not yet read
     switch (input.byte()) {
-      case 0:
-        break;
+      case 0: break;
       case 1: {
         const int64_t n = input.integer(width);
         if (n < 0) throw input.fault("damaged octree: a leaf of negative size");
@@ -37,11 +36,8 @@ void passOverCells(BinaryReader& input, int width, Object object) {
         }
         break;
       }
-      case 2:
-        open += 8;
-        break;
-      default:
-        throw input.fault("damaged octree");
+      case 2: open += 8; break;
+      default: throw input.fault("damaged octree");
     }
   }
 }

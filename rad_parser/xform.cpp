@@ -105,9 +105,7 @@ class ArgumentTransform {
         movePoint(0);
         scaleLength(3);
         return true;
-      case Type::polygon:
-        polygon();
-        return true;
+      case Type::polygon: polygon(); return true;
       case Type::cone:
       case Type::cup:
         need(8);
@@ -147,9 +145,7 @@ class ArgumentTransform {
         absorb(0);
         absorb(4);
         return true;
-      case Type::mist:
-        mist();
-        return true;
+      case Type::mist: mist(); return true;
       case Type::brighttext:
       case Type::colortext:
       case Type::mixtext:
@@ -205,8 +201,7 @@ class ArgumentTransform {
       case Type::antimatter:
       case Type::spectrum:
       case Type::specfile:
-      case Type::alias:
-        return false;
+      case Type::alias: return false;
     }
     return false;
   }
@@ -318,20 +313,13 @@ Type Transform::typeOf(Type type) const {
   static_assert(static_cast<int>(Type::mesh) == 10, "If a new surface has an inside, its type belongs here.");
   if (!inverted) return type;
   switch (type) {
-    case Type::sphere:
-      return Type::bubble;
-    case Type::bubble:
-      return Type::sphere;
-    case Type::cone:
-      return Type::cup;
-    case Type::cup:
-      return Type::cone;
-    case Type::cylinder:
-      return Type::tube;
-    case Type::tube:
-      return Type::cylinder;
-    default:
-      return type;
+    case Type::sphere: return Type::bubble;
+    case Type::bubble: return Type::sphere;
+    case Type::cone: return Type::cup;
+    case Type::cup: return Type::cone;
+    case Type::cylinder: return Type::tube;
+    case Type::tube: return Type::cylinder;
+    default: return type;
   }
 }
 

@@ -131,31 +131,20 @@ class CodeWriter {
     const uint32_t to = reg(id);
     switch (n.op) {
       case Op::constant:
-      case Op::parameter:
-        break;
+      case Op::parameter: break;
       case Op::input:
       case Op::argument:
-      case Op::fail:
-        emit(n.op, to, n.a);
-        break;
+      case Op::fail: emit(n.op, to, n.a); break;
       case Op::global: {
         const auto& [cell, from] = globals_.at(n.a);
         emit(Op::forceGlobal, from, cell);
         emit(Op::global, to, from);
         break;
       }
-      case Op::ifPositive:
-        writeIf(id, block);
-        break;
-      case Op::select:
-        writeSelect(id, block);
-        break;
-      case Op::host:
-        writeHostCall(id, block);
-        break;
-      case Op::call:
-        writeCall(id, block);
-        break;
+      case Op::ifPositive: writeIf(id, block); break;
+      case Op::select: writeSelect(id, block); break;
+      case Op::host: writeHostCall(id, block); break;
+      case Op::call: writeCall(id, block); break;
       case Op::realArgument:
         ensure(n.a, block);
         emit(n.op, to, reg(n.a), n.b);

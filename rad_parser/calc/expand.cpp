@@ -130,16 +130,11 @@ class Expander {
   Id compileInner(const Syntax& tree, const Scope& scope) {
     Graph& graph = scope.frame->graph;
     switch (tree.kind) {
-      case Kind::number:
-        return graph.constant(tree.number);
-      case Kind::channel:
-        return channel(tree, scope);
-      case Kind::name:
-        return variable(tree, scope);
-      case Kind::parameter:
-        return argument(tree, scope, static_cast<size_t>(tree.index));
-      case Kind::negate:
-        return graph.operate(Op::negate, compile(tree.args[0], scope));
+      case Kind::number: return graph.constant(tree.number);
+      case Kind::channel: return channel(tree, scope);
+      case Kind::name: return variable(tree, scope);
+      case Kind::parameter: return argument(tree, scope, static_cast<size_t>(tree.index));
+      case Kind::negate: return graph.operate(Op::negate, compile(tree.args[0], scope));
       case Kind::sum:
       case Kind::product: {
         Id left = compile(tree.args[0], scope);
@@ -157,8 +152,7 @@ class Expander {
           return base;
         return graph.operate(Op::power, base, exponent);
       }
-      case Kind::call:
-        return call(tree, scope);
+      case Kind::call: return call(tree, scope);
     }
     return kNone;
   }
@@ -347,10 +341,8 @@ class Expander {
     Graph& graph = scope.frame->graph;
     const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
     switch (f.op) {
-      case Op::ifPositive:
-        return ifCall(tree, scope, f);
-      case Op::select:
-        return selectCall(tree, scope, f);
+      case Op::ifPositive: return ifCall(tree, scope, f);
+      case Op::select: return selectCall(tree, scope, f);
       case Op::min:
       case Op::max: {
         // The comparisons are in RADIANCE's order, which matters if a value is NaN.
@@ -358,10 +350,8 @@ class Expander {
         for (size_t k = tree.args.size() - 1; k > 1; --k) extreme = graph.operate(f.op, extreme, value(k));
         return graph.operate(Op::finite, extreme);
       }
-      case Op::realArgument:
-        return realArgument(tree, scope, value(1));
-      case Op::noise3:
-        return noiseCall(tree, scope, f);
+      case Op::realArgument: return realArgument(tree, scope, value(1));
+      case Op::noise3: return noiseCall(tree, scope, f);
       default: {
         const Id a = value(1);
         const Id b = f.arity > 1 ? value(2) : kNone;

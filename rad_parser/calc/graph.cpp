@@ -14,34 +14,27 @@ uint32_t ownCost(Op op) {
     case Op::constant:
     case Op::input:
     case Op::argument:
-    case Op::parameter:
-      return 0;
+    case Op::parameter: return 0;
     case Op::negate:
     case Op::add:
     case Op::subtract:
     case Op::multiply:
     case Op::min:
     case Op::max:
-    case Op::finite:
-      return 1;
+    case Op::finite: return 1;
     case Op::divide:
     case Op::sqrt:
     case Op::floor:
     case Op::ceil:
-    case Op::realArgument:
-      return 3;
+    case Op::realArgument: return 3;
     case Op::ifPositive:
-    case Op::select:
-      return 2;
-    case Op::noise3:
-      return 30;
+    case Op::select: return 2;
+    case Op::noise3: return 30;
     case Op::host:
     case Op::call:
     case Op::global:
-    case Op::fractalNoise3:
-      return 100;
-    default:
-      return 15;
+    case Op::fractalNoise3: return 100;
+    default: return 15;
   }
 }
 
@@ -57,8 +50,7 @@ int directOperands(Op op) {
     case Op::fail:
     case Op::select:
     case Op::host:
-    case Op::call:
-      return 0;
+    case Op::call: return 0;
     case Op::add:
     case Op::subtract:
     case Op::multiply:
@@ -68,14 +60,11 @@ int directOperands(Op op) {
     case Op::jn:
     case Op::yn:
     case Op::min:
-    case Op::max:
-      return 2;
+    case Op::max: return 2;
     case Op::noise3:
     case Op::fractalNoise3:
-    case Op::ifPositive:
-      return 3;
-    default:
-      return 1;
+    case Op::ifPositive: return 3;
+    default: return 1;
   }
 }
 
@@ -143,13 +132,11 @@ Id Graph::operate(Op op, Id a, Id b, Id c) {
         return operate(Op::multiply, a, constant(1 / nodes_[b].value));
       }
       break;
-    case Op::power:
-      return raise(a, b);
+    case Op::power: return raise(a, b);
     case Op::finite:
       if (nodes_[a].isFinite) return a;
       break;
-    default:
-      break;
+    default: break;
   }
   Node n;
   n.op = op;
@@ -203,13 +190,10 @@ void Graph::weigh(Node& n) const {
 
 bool Graph::isAlwaysFinite(const Node& n) const {
   switch (n.op) {
-    case Op::constant:
-      return std::isfinite(n.value);
-    case Op::negate:
-      return nodes_[n.a].isFinite;
+    case Op::constant: return std::isfinite(n.value);
+    case Op::negate: return nodes_[n.a].isFinite;
     case Op::min:
-    case Op::max:
-      return nodes_[n.a].isFinite && nodes_[n.b].isFinite;
+    case Op::max: return nodes_[n.a].isFinite && nodes_[n.b].isFinite;
     case Op::argument:
     case Op::parameter:
     case Op::global:
@@ -218,10 +202,8 @@ bool Graph::isAlwaysFinite(const Node& n) const {
     case Op::multiply:
     case Op::divide:
     case Op::call:
-    case Op::realArgument:
-      return false;
-    default:
-      return true;
+    case Op::realArgument: return false;
+    default: return true;
   }
 }
 

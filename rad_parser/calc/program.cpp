@@ -46,76 +46,42 @@ const char* faultName(uint32_t faults) {
 
 double apply(Op op, double a, double b, double c, uint32_t& faults) {
   switch (op) {
-    case Op::negate:
-      return -a;
-    case Op::add:
-      return a + b;
-    case Op::subtract:
-      return a - b;
-    case Op::multiply:
-      return a * b;
-    case Op::divide:
-      return quotient(a, b, faults);
-    case Op::power:
-      return power(a, b, faults);
-    case Op::sin:
-      return checked(std::sin(a), faults);
-    case Op::cos:
-      return checked(std::cos(a), faults);
-    case Op::tan:
-      return checked(std::tan(a), faults);
-    case Op::asin:
-      return checked(std::asin(a), faults);
-    case Op::acos:
-      return checked(std::acos(a), faults);
-    case Op::atan:
-      return checked(std::atan(a), faults);
-    case Op::exp:
-      return checked(std::exp(a), faults);
-    case Op::log:
-      return checked(std::log(a), faults);
-    case Op::log10:
-      return checked(std::log10(a), faults);
-    case Op::sqrt:
-      return checked(std::sqrt(a), faults);
-    case Op::floor:
-      return checked(std::floor(a), faults);
-    case Op::ceil:
-      return checked(std::ceil(a), faults);
-    case Op::random:
-      return checked(randomOf(a), faults);
-    case Op::erf:
-      return checked(std::erf(a), faults);
-    case Op::erfc:
-      return checked(std::erfc(a), faults);
-    case Op::j0:
-      return checked(::j0(a), faults);
-    case Op::j1:
-      return checked(::j1(a), faults);
-    case Op::y0:
-      return checked(::y0(a), faults);
-    case Op::y1:
-      return checked(::y1(a), faults);
-    case Op::atan2:
-      return checked(std::atan2(a, b), faults);
+    case Op::negate: return -a;
+    case Op::add: return a + b;
+    case Op::subtract: return a - b;
+    case Op::multiply: return a * b;
+    case Op::divide: return quotient(a, b, faults);
+    case Op::power: return power(a, b, faults);
+    case Op::sin: return checked(std::sin(a), faults);
+    case Op::cos: return checked(std::cos(a), faults);
+    case Op::tan: return checked(std::tan(a), faults);
+    case Op::asin: return checked(std::asin(a), faults);
+    case Op::acos: return checked(std::acos(a), faults);
+    case Op::atan: return checked(std::atan(a), faults);
+    case Op::exp: return checked(std::exp(a), faults);
+    case Op::log: return checked(std::log(a), faults);
+    case Op::log10: return checked(std::log10(a), faults);
+    case Op::sqrt: return checked(std::sqrt(a), faults);
+    case Op::floor: return checked(std::floor(a), faults);
+    case Op::ceil: return checked(std::ceil(a), faults);
+    case Op::random: return checked(randomOf(a), faults);
+    case Op::erf: return checked(std::erf(a), faults);
+    case Op::erfc: return checked(std::erfc(a), faults);
+    case Op::j0: return checked(::j0(a), faults);
+    case Op::j1: return checked(::j1(a), faults);
+    case Op::y0: return checked(::y0(a), faults);
+    case Op::y1: return checked(::y1(a), faults);
+    case Op::atan2: return checked(std::atan2(a, b), faults);
     // The order is rounded like the index of select(). Its magnitude is limited because the C library's
     // recurrences take time in proportion to it.
-    case Op::jn:
-      return std::abs(a) < 1e6 ? checked(::jn(static_cast<int>(a + .5), b), faults) : 0;
-    case Op::yn:
-      return std::abs(a) < 1e6 ? checked(::yn(static_cast<int>(a + .5), b), faults) : 0;
-    case Op::min:
-      return a > b ? b : a;
-    case Op::max:
-      return a < b ? b : a;
-    case Op::noise3:
-      return checked(noise3(a, b, c), faults);
-    case Op::fractalNoise3:
-      return checked(fractalNoise3(a, b, c), faults);
-    case Op::finite:
-      return checked(a, faults);
-    default:
-      return 0;  // not an operator
+    case Op::jn: return std::abs(a) < 1e6 ? checked(::jn(static_cast<int>(a + .5), b), faults) : 0;
+    case Op::yn: return std::abs(a) < 1e6 ? checked(::yn(static_cast<int>(a + .5), b), faults) : 0;
+    case Op::min: return a > b ? b : a;
+    case Op::max: return a < b ? b : a;
+    case Op::noise3: return checked(noise3(a, b, c), faults);
+    case Op::fractalNoise3: return checked(fractalNoise3(a, b, c), faults);
+    case Op::finite: return checked(a, faults);
+    default: return 0;  // not an operator
   }
 }
 
@@ -158,57 +124,23 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
 
   while (true) {
     switch (i->op) {
-      case Op::input:
-        r[i->to] = point.inputs[i->a];
-        break;
-      case Op::argument:
-        r[i->to] = point.arguments[i->a];
-        break;
-      case Op::move:
-        r[i->to] = r[i->a];
-        break;
-      case Op::moveFinite:
-        r[i->to] = checked(r[i->a], faults);
-        break;
-      case Op::negate:
-        r[i->to] = -r[i->a];
-        break;
-      case Op::add:
-        r[i->to] = r[i->a] + r[i->b];
-        break;
-      case Op::subtract:
-        r[i->to] = r[i->a] - r[i->b];
-        break;
-      case Op::multiply:
-        r[i->to] = r[i->a] * r[i->b];
-        break;
-      case Op::divide:
-        r[i->to] = quotient(r[i->a], r[i->b], faults);
-        break;
-      case Op::min:
-        r[i->to] = r[i->a] > r[i->b] ? r[i->b] : r[i->a];
-        break;
-      case Op::max:
-        r[i->to] = r[i->a] < r[i->b] ? r[i->b] : r[i->a];
-        break;
-      case Op::sqrt:
-        r[i->to] = checked(std::sqrt(r[i->a]), faults);
-        break;
-      case Op::floor:
-        r[i->to] = checked(std::floor(r[i->a]), faults);
-        break;
-      case Op::sin:
-        r[i->to] = checked(std::sin(r[i->a]), faults);
-        break;
-      case Op::cos:
-        r[i->to] = checked(std::cos(r[i->a]), faults);
-        break;
-      case Op::noise3:
-        r[i->to] = checked(noise3(r[i->a], r[i->b], r[i->c]), faults);
-        break;
-      case Op::jump:
-        i = code + i->a;
-        continue;
+      case Op::input: r[i->to] = point.inputs[i->a]; break;
+      case Op::argument: r[i->to] = point.arguments[i->a]; break;
+      case Op::move: r[i->to] = r[i->a]; break;
+      case Op::moveFinite: r[i->to] = checked(r[i->a], faults); break;
+      case Op::negate: r[i->to] = -r[i->a]; break;
+      case Op::add: r[i->to] = r[i->a] + r[i->b]; break;
+      case Op::subtract: r[i->to] = r[i->a] - r[i->b]; break;
+      case Op::multiply: r[i->to] = r[i->a] * r[i->b]; break;
+      case Op::divide: r[i->to] = quotient(r[i->a], r[i->b], faults); break;
+      case Op::min: r[i->to] = r[i->a] > r[i->b] ? r[i->b] : r[i->a]; break;
+      case Op::max: r[i->to] = r[i->a] < r[i->b] ? r[i->b] : r[i->a]; break;
+      case Op::sqrt: r[i->to] = checked(std::sqrt(r[i->a]), faults); break;
+      case Op::floor: r[i->to] = checked(std::floor(r[i->a]), faults); break;
+      case Op::sin: r[i->to] = checked(std::sin(r[i->a]), faults); break;
+      case Op::cos: r[i->to] = checked(std::cos(r[i->a]), faults); break;
+      case Op::noise3: r[i->to] = checked(noise3(r[i->a], r[i->b], r[i->c]), faults); break;
+      case Op::jump: i = code + i->a; continue;
       case Op::jumpUnlessPositive:
         if (!(r[i->a] > 0)) {
           i = code + i->b;
@@ -259,9 +191,7 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         c.pc = kBusy;
         continue;
       }
-      case Op::global:
-        r[i->to] = state.registers_[i->a];
-        break;
+      case Op::global: r[i->to] = state.registers_[i->a]; break;
       case Op::returnCell: {
         const double value = r[i->a];
         const State::Return& back = state.returns_[--depth];
@@ -310,16 +240,12 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         i = code + back.pc;
         continue;
       }
-      case Op::fail:
-        state.faults |= faults;
-        throw Error(messages_[i->a]);
+      case Op::fail: state.faults |= faults; throw Error(messages_[i->a]);
       case Op::halt:
         for (size_t k = 0; k < outputs_.size(); ++k) out[k] = r[outputs_[k]];
         state.faults |= faults;
         return;
-      default:
-        r[i->to] = apply(i->op, r[i->a], r[i->b], r[i->c], faults);
-        break;
+      default: r[i->to] = apply(i->op, r[i->a], r[i->b], r[i->c], faults); break;
     }
     ++i;
   }

@@ -180,14 +180,9 @@ void SymbolTable::fold(Syntax& tree, const std::string& place) const {
       }
       break;
     case Kind::sum:
-    case Kind::product:
-      foldChain(tree, place);
-      break;
-    case Kind::call:
-      foldCall(tree, place);
-      break;
-    default:
-      break;
+    case Kind::product: foldChain(tree, place); break;
+    case Kind::call: foldCall(tree, place); break;
+    default: break;
   }
 }
 

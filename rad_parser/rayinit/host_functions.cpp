@@ -49,12 +49,9 @@ double sourceCorrection(const Point& point, std::span<const double> arguments) {
   const auto side = [&](size_t n) { return real(point, n, name); };
   const double* d = point.inputs.data() + Dx;
   switch (kindOf(arguments[1])) {
-    case 0:
-      return value;
-    case 1:
-      return value / point.inputs[Rdot];
-    case 2:
-      return value / projectedArea(d, side(2), side(3), side(4));
+    case 0: return value;
+    case 1: return value / point.inputs[Rdot];
+    case 2: return value / projectedArea(d, side(2), side(3), side(4));
     case 3: {
       // Each side that faces the start of the ray contributes its area, times the distance of the start from
       // its plane.
@@ -72,8 +69,7 @@ double sourceCorrection(const Point& point, std::span<const double> arguments) {
       const double disk = std::numbers::pi / 4 * diameter * diameter;
       return value / (diameter * height * std::sqrt(1 - cosine * cosine) + disk * std::abs(cosine));
     }
-    default:
-      throw Error(fmt::format("{}(): the second argument must be 0, 1, 2, 3 or 4", name));
+    default: throw Error(fmt::format("{}(): the second argument must be 0, 1, 2, 3 or 4", name));
   }
 }
 
@@ -88,15 +84,12 @@ double sourcePhi(const Point& point, std::span<const double> arguments) {
   double angle = kDegrees * std::atan2(-point.inputs[Dy], -point.inputs[Dx]);
   if (angle < 0) angle += 360;
   switch (kindOf(arguments[0])) {
-    case 360:
-      return angle;
-    case 180:
-      return angle < 180 ? angle : 360 - angle;
+    case 360: return angle;
+    case 180: return angle < 180 ? angle : 360 - angle;
     case 90:
       if (angle >= 180) angle -= 180;
       return angle < 90 ? angle : 180 - angle;
-    default:
-      throw Error("source_phi(): the argument must be 90, 180 or 360");
+    default: throw Error("source_phi(): the argument must be 90, 180 or 360");
   }
 }
 

@@ -30,37 +30,20 @@ int componentCount(const AnswerOptions& options) {
       case 'x':
       case 'e':
       case 'E':
-      case 'C':
-        count += color;
-        break;
-      case 'W':
-        count += coefficient;
-        break;
+      case 'C': count += color; break;
+      case 'W': count += coefficient; break;
       case 'o':
       case 'd':
       case 'p':
       case 'n':
-      case 'N':
-        count += 3;
-        break;
-      case 'u':
-        count += 3 * parts;
-        break;
-      case 'H':
-        count += 6 * color;
-        break;
+      case 'N': count += 3; break;
+      case 'u': count += 3 * parts; break;
+      case 'H': count += 6 * color; break;
       case 'z':
-      case 'Z':
-        count += options.sphere.zones * color;
-        break;
-      case 'c':
-        count += 2;
-        break;
-      case '~':
-        break;
-      default:
-        count += 1;
-        break;
+      case 'Z': count += options.sphere.zones * color; break;
+      case 'c': count += 2; break;
+      case '~': break;
+      default: count += 1; break;
     }
   return count;
 }
@@ -77,47 +60,26 @@ void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& a
     eachPart(all.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
   };
   switch (letter) {
-    case 'o':
-      return text.vector(answer.origin);
-    case 'd':
-      return text.vector(answer.direction);
-    case 'v':
-      return radiance(answer.value);
-    case 'V':
-      return radiance(answer.value * answer.contribution);
-    case 'r':
-      return radiance(answer.mirroredContribution);
-    case 'x':
-      return radiance(answer.unmirroredContribution);
-    case 'R':
-      return text.number(answer.mirroredLength);
-    case 'X':
-      return text.number(answer.unmirroredLength);
-    case 'l':
-      return text.number(answer.effectiveLength);
-    case 'L':
-      return text.number(answer.firstLength);
-    case 'c':
-      text.number(answer.u);
-      return text.number(answer.v);
-    case 'p':
-      return text.vector(answer.point);
-    case 'n':
-      return text.vector(answer.normal);
-    case 'N':
-      return text.vector(answer.unperturbedNormal);
-    case 's':
-      return text.name(answer.surface.text());
-    case 'm':
-      return text.name(answer.modifier);
-    case 'M':
-      return text.name(answer.material);
-    case 'w':
-      return text.number(answer.rayWeight);
-    case 'W':
-      return colors_.write(text, answer.contribution);
-    case '~':
-      return text.name("~");
+    case 'o': return text.vector(answer.origin);
+    case 'd': return text.vector(answer.direction);
+    case 'v': return radiance(answer.value);
+    case 'V': return radiance(answer.value * answer.contribution);
+    case 'r': return radiance(answer.mirroredContribution);
+    case 'x': return radiance(answer.unmirroredContribution);
+    case 'R': return text.number(answer.mirroredLength);
+    case 'X': return text.number(answer.unmirroredLength);
+    case 'l': return text.number(answer.effectiveLength);
+    case 'L': return text.number(answer.firstLength);
+    case 'c': text.number(answer.u); return text.number(answer.v);
+    case 'p': return text.vector(answer.point);
+    case 'n': return text.vector(answer.normal);
+    case 'N': return text.vector(answer.unperturbedNormal);
+    case 's': return text.name(answer.surface.text());
+    case 'm': return text.name(answer.modifier);
+    case 'M': return text.name(answer.material);
+    case 'w': return text.number(answer.rayWeight);
+    case 'W': return colors_.write(text, answer.contribution);
+    case '~': return text.name("~");
   }
 }
 
@@ -198,36 +160,18 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
   RecordText text(bytes, options_.out);
   const auto irradiance = [&](const Color& part) { colors_.write(text, Irradiance(part)); };
   for (const char letter : options_.outputs) switch (letter) {
-      case 'o':
-        text.vector(answer.point);
-        break;
+      case 'o': text.vector(answer.point); break;
       case 'v':
         eachPart(answer.mean.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
         break;
-      case 'e':
-        writeError(text, answer);
-        break;
-      case 'E':
-        eachPart(answer.scalarIrradiance.color, irradiance);
-        break;
-      case 'C':
-        eachPart(answer.cylindricalIrradiance.color, irradiance);
-        break;
-      case 'H':
-        writeFaces(text, answer);
-        break;
-      case 'u':
-        writeLightVector(text, answer);
-        break;
-      case 'k':
-        text.integer(answer.directions);
-        break;
-      case 'z':
-        writeZones(text, answer);
-        break;
-      case 'Z':
-        writeZoneErrors(text, answer);
-        break;
+      case 'e': writeError(text, answer); break;
+      case 'E': eachPart(answer.scalarIrradiance.color, irradiance); break;
+      case 'C': eachPart(answer.cylindricalIrradiance.color, irradiance); break;
+      case 'H': writeFaces(text, answer); break;
+      case 'u': writeLightVector(text, answer); break;
+      case 'k': text.integer(answer.directions); break;
+      case 'z': writeZones(text, answer); break;
+      case 'Z': writeZoneErrors(text, answer); break;
     }
   text.end();
 }
@@ -235,42 +179,18 @@ void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
 void AnswerWriter::write(std::string& bytes, const GlareAnswer& answer) const {
   RecordText text(bytes, options_.out);
   for (const char letter : options_.outputs) switch (letter) {
-      case 'o':
-        text.vector(answer.eye);
-        break;
-      case 'd':
-        text.vector(answer.gaze);
-        break;
-      case 'n':
-        text.integer(answer.sources.size());
-        break;
-      case 't':
-        text.number(answer.threshold);
-        break;
-      case 'u':
-        text.number(answer.indices.ugr);
-        break;
-      case 'U':
-        text.number(answer.errors.ugr);
-        break;
-      case 'v':
-        text.number(answer.indices.illuminance);
-        break;
-      case 'V':
-        text.number(answer.errors.illuminance);
-        break;
-      case 'b':
-        text.number(answer.indices.background);
-        break;
-      case 'B':
-        text.number(answer.errors.background);
-        break;
-      case 'g':
-        text.number(answer.indices.dgp);
-        break;
-      case 'G':
-        text.number(answer.errors.dgp);
-        break;
+      case 'o': text.vector(answer.eye); break;
+      case 'd': text.vector(answer.gaze); break;
+      case 'n': text.integer(answer.sources.size()); break;
+      case 't': text.number(answer.threshold); break;
+      case 'u': text.number(answer.indices.ugr); break;
+      case 'U': text.number(answer.errors.ugr); break;
+      case 'v': text.number(answer.indices.illuminance); break;
+      case 'V': text.number(answer.errors.illuminance); break;
+      case 'b': text.number(answer.indices.background); break;
+      case 'B': text.number(answer.errors.background); break;
+      case 'g': text.number(answer.indices.dgp); break;
+      case 'G': text.number(answer.errors.dgp); break;
     }
   text.end();
 }
@@ -280,33 +200,15 @@ void AnswerWriter::write(std::string& bytes, const GlareSource& source, const Gl
   RecordText text(bytes, options_.out);
   const bool known = source.surface != kNone;
   for (const char letter : options_.outputs) switch (letter) {
-      case 'i':
-        text.integer(record);
-        break;
-      case 'o':
-        text.vector(eye.eye);
-        break;
-      case 'd':
-        text.vector(source.direction);
-        break;
-      case 'l':
-        text.number(source.luminance);
-        break;
-      case 'L':
-        text.number(source.luminanceError);
-        break;
-      case 'w':
-        text.number(source.solidAngle);
-        break;
-      case 'W':
-        text.number(source.solidAngleError);
-        break;
-      case 'p':
-        text.number(source.positionIndex);
-        break;
-      case 's':
-        text.name(known ? SurfaceName(scene, source.surface).text() : "*");
-        break;
+      case 'i': text.integer(record); break;
+      case 'o': text.vector(eye.eye); break;
+      case 'd': text.vector(source.direction); break;
+      case 'l': text.number(source.luminance); break;
+      case 'L': text.number(source.luminanceError); break;
+      case 'w': text.number(source.solidAngle); break;
+      case 'W': text.number(source.solidAngleError); break;
+      case 'p': text.number(source.positionIndex); break;
+      case 's': text.name(known ? SurfaceName(scene, source.surface).text() : "*"); break;
     }
   text.end();
 }

@@ -52,14 +52,10 @@ std::string solidAngleLines(const DirectionBins& bins) {
 
 std::string_view formatName(NumberFormat format, const ColorOptions& color) {
   switch (format) {
-    case NumberFormat::ascii:
-      return "ascii";
-    case NumberFormat::float32:
-      return "float";
-    case NumberFormat::float64:
-      return "double";
-    case NumberFormat::rgbe:
-      return OutputColors(color).pixelFormat();
+    case NumberFormat::ascii: return "ascii";
+    case NumberFormat::float32: return "float";
+    case NumberFormat::float64: return "double";
+    case NumberFormat::rgbe: return OutputColors(color).pixelFormat();
   }
   return "unknown";
 }

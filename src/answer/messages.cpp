@@ -56,15 +56,9 @@ int Messages::error(const rad::Error& error) const {
   const int status = static_cast<int>(error.status());
   if (dynamic_cast<const ClosedPipe*>(&error) != nullptr) return status;
   switch (error.status()) {
-    case rad::Status::input:
-      write("fatal - ", error.what());
-      break;
-    case rad::Status::system:
-      write("system - ", error.what());
-      break;
-    case rad::Status::signal:
-      write("signal - ", error.what());
-      break;
+    case rad::Status::input: write("fatal - ", error.what()); break;
+    case rad::Status::system: write("system - ", error.what()); break;
+    case rad::Status::signal: write("signal - ", error.what()); break;
   }
   return status;
 }

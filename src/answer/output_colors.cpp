@@ -65,8 +65,7 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options), sam
     scale_ = scale;
   };
   switch (options.space) {
-    case ColorSpace::rgb:
-      break;
+    case ColorSpace::rgb: break;
     case ColorSpace::xyz:
       matrix_ = xyzFromRgb(kStandardPrimaries);
       scale_ = kPhotopicEfficacy;
@@ -81,18 +80,10 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options), sam
     case ColorSpace::photopic:
       oneChannel(Color(kRedWeight, kGreenWeight, kBlueWeight), kPhotopicEfficacy);
       break;
-    case ColorSpace::scotopic:
-      oneChannel(kScotopicWeights, kScotopicEfficacy);
-      break;
-    case ColorSpace::melanopic:
-      oneChannel(kMelanopicWeights, kMelanopicEfficacy);
-      break;
-    case ColorSpace::average:
-      oneChannel(Color(1 / 3., 1 / 3., 1 / 3.), 1);
-      break;
-    case ColorSpace::spectrum:
-      count_ = options.bands;
-      break;
+    case ColorSpace::scotopic: oneChannel(kScotopicWeights, kScotopicEfficacy); break;
+    case ColorSpace::melanopic: oneChannel(kMelanopicWeights, kMelanopicEfficacy); break;
+    case ColorSpace::average: oneChannel(Color(1 / 3., 1 / 3., 1 / 3.), 1); break;
+    case ColorSpace::spectrum: count_ = options.bands; break;
   }
 }
 
@@ -100,10 +91,8 @@ void OutputColors::write(RecordText& text, const Color& color, double scale) con
   if (sampling_) return writeBands(text, color.bandsIn(*sampling_), scale);
   switch (options_.space) {
     case ColorSpace::rgb:
-    case ColorSpace::spectrum:
-      return text.color(color);
-    case ColorSpace::xyz:
-      return text.color(Color(product(matrix_, color.rgb()) * scale));
+    case ColorSpace::spectrum: return text.color(color);
+    case ColorSpace::xyz: return text.color(Color(product(matrix_, color.rgb()) * scale));
     case ColorSpace::primaries:
       return text.color(Color(intoGamut(product(matrix_, color.rgb()), brightness(color))));
     case ColorSpace::photopic:
@@ -120,22 +109,16 @@ void OutputColors::writeBands(RecordText& text, const Bands& bands, double scale
     return std::inner_product(values.begin(), values.end(), weights.begin(), 0.);
   };
   switch (options_.space) {
-    case ColorSpace::rgb:
-      return text.color(Color(standardRgb(bandWeights_.tristimulus(values))));
-    case ColorSpace::spectrum:
-      return text.spectrum(values);
-    case ColorSpace::xyz:
-      return text.color(Color(bandWeights_.tristimulus(values) * scale));
+    case ColorSpace::rgb: return text.color(Color(standardRgb(bandWeights_.tristimulus(values))));
+    case ColorSpace::spectrum: return text.spectrum(values);
+    case ColorSpace::xyz: return text.color(Color(bandWeights_.tristimulus(values) * scale));
     case ColorSpace::primaries: {
       const V3d xyz = bandWeights_.tristimulus(values);
       return text.color(Color(intoGamut(product(matrix_, xyz), xyz.y)));
     }
-    case ColorSpace::photopic:
-      return text.number(scale * sum(sampling_->photopic));
-    case ColorSpace::scotopic:
-      return text.number(scale * sum(bandWeights_.scotopic));
-    case ColorSpace::melanopic:
-      return text.number(scale * sum(bandWeights_.melanopic));
+    case ColorSpace::photopic: return text.number(scale * sum(sampling_->photopic));
+    case ColorSpace::scotopic: return text.number(scale * sum(bandWeights_.scotopic));
+    case ColorSpace::melanopic: return text.number(scale * sum(bandWeights_.melanopic));
     case ColorSpace::average:
       return text.number(std::accumulate(values.begin(), values.end(), 0.) /
                          static_cast<double>(values.size()));

@@ -137,28 +137,17 @@ std::string lineOf(const OptionEntry& entry, Options& options) {
 
 std::string_view groupName(Group group) {
   switch (group) {
-    case Group::records:
-      return "Records";
-    case Group::sphere:
-      return "Sphere mode";
-    case Group::direct:
-      return "Direct light";
-    case Group::specular:
-      return "Highlights";
-    case Group::indirect:
-      return "Indirect light";
-    case Group::limits:
-      return "Limits of a path";
-    case Group::medium:
-      return "Medium";
-    case Group::color:
-      return "Colors";
-    case Group::trees:
-      return "Ray trees";
-    case Group::program:
-      return "Program";
-    case Group::companion:
-      return "";
+    case Group::records: return "Records";
+    case Group::sphere: return "Sphere mode";
+    case Group::direct: return "Direct light";
+    case Group::specular: return "Highlights";
+    case Group::indirect: return "Indirect light";
+    case Group::limits: return "Limits of a path";
+    case Group::medium: return "Medium";
+    case Group::color: return "Colors";
+    case Group::trees: return "Ray trees";
+    case Group::program: return "Program";
+    case Group::companion: return "";
   }
   return "";
 }

@@ -120,12 +120,9 @@ std::string histogramSvg(const Comparison& comparison, double tolerance) {
 Tone toneOf(Verdict verdict) {
   switch (verdict) {
     case Verdict::same:
-    case Verdict::small:
-      return Tone::good;
-    case Verdict::undecided:
-      return Tone::open;
-    case Verdict::differs:
-      break;
+    case Verdict::small: return Tone::good;
+    case Verdict::undecided: return Tone::open;
+    case Verdict::differs: break;
   }
   return Tone::bad;
 }

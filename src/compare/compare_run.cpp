@@ -207,12 +207,9 @@ std::vector<double> recordsToCompare(const CompareOptions& options, const std::s
 CompareStatus statusOf(Verdict verdict) {
   switch (verdict) {
     case Verdict::same:
-    case Verdict::small:
-      return CompareStatus::same;
-    case Verdict::undecided:
-      return CompareStatus::undecided;
-    case Verdict::differs:
-      break;
+    case Verdict::small: return CompareStatus::same;
+    case Verdict::undecided: return CompareStatus::undecided;
+    case Verdict::differs: break;
   }
   return CompareStatus::differs;
 }

@@ -86,16 +86,12 @@ std::vector<std::string> originalOptions(const Options& options, std::span<const
     };
     bool pass = false;
     switch (entry.group) {
-      case Group::records:
-        pass = isOneOf({"-I", "-i", "-ld"});
-        break;
+      case Group::records: pass = isOneOf({"-I", "-i", "-ld"}); break;
       case Group::direct:
       case Group::specular:
       case Group::indirect:
       case Group::limits:
-      case Group::medium:
-        pass = true;
-        break;
+      case Group::medium: pass = true; break;
       case Group::program:
         pass = isOneOf({"-u", "-bv", "-f"}) ||
                (entry.name == "-e" && option.words[1].find_first_of("=:") != std::string::npos);
@@ -103,8 +99,7 @@ std::vector<std::string> originalOptions(const Options& options, std::span<const
       case Group::sphere:
       case Group::color:
       case Group::trees:
-      case Group::companion:
-        break;
+      case Group::companion: break;
     }
     if (pass) words.insert(words.end(), option.words.begin(), option.words.end());
   }

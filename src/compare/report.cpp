@@ -17,12 +17,9 @@ std::string signedPercent(double x) { return (x < 0 ? "" : "+") + percent(x); }
 
 std::string verdictText(const ChannelComparison& c) {
   switch (c.verdict) {
-    case Verdict::same:
-      return "the same but for noise";
-    case Verdict::small:
-      return "a bias below the tolerance";
-    case Verdict::undecided:
-      return "noise could hide more than the tolerance";
+    case Verdict::same: return "the same but for noise";
+    case Verdict::small: return "a bias below the tolerance";
+    case Verdict::undecided: return "noise could hide more than the tolerance";
     case Verdict::differs:
       return c.beyond > 0
                  ? fmt::format("differs: {} by more than the tolerance, even after allowing for noise",
@@ -34,15 +31,12 @@ std::string verdictText(const ChannelComparison& c) {
 
 std::string_view conclusion(Verdict verdict) {
   switch (verdict) {
-    case Verdict::same:
-      return "No difference but noise";
-    case Verdict::small:
-      return "Within the tolerance: a bias that is certain, but smaller";
+    case Verdict::same: return "No difference but noise";
+    case Verdict::small: return "Within the tolerance: a bias that is certain, but smaller";
     case Verdict::undecided:
       return "Undecided: noise could hide a difference above the tolerance; more repeats (-Cr) or samples "
              "tell";
-    case Verdict::differs:
-      return "They differ";
+    case Verdict::differs: return "They differ";
   }
   return "";
 }

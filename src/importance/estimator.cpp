@@ -239,12 +239,10 @@ double SphereEstimator::sharedError() const { return coarseError(usual_.tracing)
 
 std::unique_ptr<const SamplingStrategy> SphereEstimator::makeStrategy(const Method& method) const {
   switch (options_.weights) {
-    case Weights::homogeneous:
-      return std::make_unique<EqualWeights>(options_, base_);
+    case Weights::homogeneous: return std::make_unique<EqualWeights>(options_, base_);
     case Weights::voronoi:
       return std::make_unique<VoronoiWeights>(method.tracing.prepared.scene(), options_, base_, special_);
-    case Weights::silhouettes:
-      break;
+    case Weights::silhouettes: break;
   }
   return std::make_unique<SilhouetteWeights>(method.tracing, options_, base_, special_, sources_,
                                              method.glances.get());

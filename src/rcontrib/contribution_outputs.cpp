@@ -56,12 +56,9 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
 size_t recordBytes(const ContributionOptions& options, const OutputPlan& plan, size_t components) {
   const size_t columns = plan.columnCount();
   switch (options.out) {
-    case NumberFormat::float32:
-      return columns * components * sizeof(float);
-    case NumberFormat::float64:
-      return columns * components * sizeof(double);
-    default:
-      return columns * (components + 1);
+    case NumberFormat::float32: return columns * components * sizeof(float);
+    case NumberFormat::float64: return columns * components * sizeof(double);
+    default: return columns * (components + 1);
   }
 }
 

@@ -208,27 +208,18 @@ class Builder {
   std::optional<Shape> makeShape(PrimitiveId i, const Primitive& p) {
     const PrimitiveArguments a(scene_.description, p);
     switch (a.type()) {
-      case Type::polygon:
-        return readPolygon(a, warn_, scene_.description.vertices);
+      case Type::polygon: return readPolygon(a, warn_, scene_.description.vertices);
       case Type::sphere:
-      case Type::bubble:
-        return readSphere(a, warn_);
+      case Type::bubble: return readSphere(a, warn_);
       case Type::cone:
-      case Type::cup:
-        return readCone(a, warn_);
+      case Type::cup: return readCone(a, warn_);
       case Type::cylinder:
-      case Type::tube:
-        return readCylinder(a, warn_);
-      case Type::ring:
-        return readRing(a, warn_);
-      case Type::source:
-        return readSource(a);
-      case Type::instance:
-        return makeInstance(i, a);
-      case Type::mesh:
-        return makeMeshInstance(i, a);
-      default:
-        a.fail("this type is not supported yet");
+      case Type::tube: return readCylinder(a, warn_);
+      case Type::ring: return readRing(a, warn_);
+      case Type::source: return readSource(a);
+      case Type::instance: return makeInstance(i, a);
+      case Type::mesh: return makeMeshInstance(i, a);
+      default: a.fail("this type is not supported yet");
     }
   }
 

@@ -102,68 +102,43 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
   const PrimitiveArguments arguments(scene_.description, i);
   switch (arguments.type()) {
     case Type::brightfunc:
-    case Type::colorfunc:
-      return {Pattern{}, readFunction(arguments)};
+    case Type::colorfunc: return {Pattern{}, readFunction(arguments)};
     case Type::brightdata:
     case Type::colordata:
-    case Type::specdata:
-      return {Pattern{}, readData(arguments)};
+    case Type::specdata: return {Pattern{}, readData(arguments)};
     case Type::colorpict:
-    case Type::specpict:
-      return {Pattern{}, readPicture(arguments)};
-    case Type::spectrum:
-      return {Pattern{}, readSpectrum(arguments)};
-    case Type::specfile:
-      return {Pattern{}, readSpectrumFile(arguments)};
-    case Type::specfunc:
-      return {Pattern{}, readSpectralFunction(arguments)};
+    case Type::specpict: return {Pattern{}, readPicture(arguments)};
+    case Type::spectrum: return {Pattern{}, readSpectrum(arguments)};
+    case Type::specfile: return {Pattern{}, readSpectrumFile(arguments)};
+    case Type::specfunc: return {Pattern{}, readSpectralFunction(arguments)};
     case Type::brighttext:
-    case Type::colortext:
-      return {Pattern{}, readText(arguments)};
-    case Type::texfunc:
-      return {Texture{}, readFunction(arguments)};
-    case Type::texdata:
-      return {Texture{}, readData(arguments)};
-    case Type::mixfunc:
-      return mixture(i, readFunction(arguments));
-    case Type::mixdata:
-      return mixture(i, readData(arguments));
-    case Type::mixpict:
-      return mixture(i, readPicture(arguments));
-    case Type::mixtext:
-      return mixture(i, readText(arguments));
+    case Type::colortext: return {Pattern{}, readText(arguments)};
+    case Type::texfunc: return {Texture{}, readFunction(arguments)};
+    case Type::texdata: return {Texture{}, readData(arguments)};
+    case Type::mixfunc: return mixture(i, readFunction(arguments));
+    case Type::mixdata: return mixture(i, readData(arguments));
+    case Type::mixpict: return mixture(i, readPicture(arguments));
+    case Type::mixtext: return mixture(i, readText(arguments));
     case Type::plastic:
-    case Type::metal:
-      return readOpaque(arguments);
-    case Type::trans:
-      return readTrans(arguments);
+    case Type::metal: return readOpaque(arguments);
+    case Type::trans: return readTrans(arguments);
     case Type::plastic2:
     case Type::metal2:
-    case Type::trans2:
-      return readAnisotropic(arguments);
-    case Type::ashik2:
-      return readAshikhmin(arguments);
+    case Type::trans2: return readAnisotropic(arguments);
+    case Type::ashik2: return readAshikhmin(arguments);
     case Type::plasfunc:
     case Type::metfunc:
-    case Type::transfunc:
-      return readFunctionScatterer(arguments);
+    case Type::transfunc: return readFunctionScatterer(arguments);
     case Type::plasdata:
     case Type::metdata:
-    case Type::transdata:
-      return readDataScatterer(arguments);
-    case Type::brtdfunc:
-      return readBrtd(arguments);
-    case Type::wgmdfunc:
-      return wgmd(i, readWgmd(arguments));
+    case Type::transdata: return readDataScatterer(arguments);
+    case Type::brtdfunc: return readBrtd(arguments);
+    case Type::wgmdfunc: return wgmd(i, readWgmd(arguments));
     case Type::bsdf:
-    case Type::absdf:
-      return readBsdf(arguments);
-    case Type::dielectric:
-      return readDielectric(arguments);
-    case Type::interface:
-      return readInterface(arguments);
-    case Type::glass:
-      return readGlass(arguments);
+    case Type::absdf: return readBsdf(arguments);
+    case Type::dielectric: return readDielectric(arguments);
+    case Type::interface: return readInterface(arguments);
+    case Type::glass: return readGlass(arguments);
     case Type::mirror: {
       const AlternatingArguments read = readAlternating(arguments);
       return Mirror{read.color, alternate(i, read)};
@@ -173,20 +148,15 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
       PrismArguments read = readPrism(arguments);
       return {Prism{static_cast<int>(read.images.size())}, std::move(read)};
     }
-    case Type::antimatter:
-      return antimatter(i, readAntimatter(arguments));
-    case Type::mist:
-      return mist(readMist(arguments));
-    case Type::light:
-      return readLight(arguments);
+    case Type::antimatter: return antimatter(i, readAntimatter(arguments));
+    case Type::mist: return mist(readMist(arguments));
+    case Type::light: return readLight(arguments);
     case Type::illum: {
       const AlternatingArguments read = readAlternating(arguments);
       return Illum{read.color, alternate(i, read)};
     }
-    case Type::glow:
-      return readGlow(arguments);
-    case Type::spotlight:
-      return readSpotlight(arguments);
+    case Type::glow: return readGlow(arguments);
+    case Type::spotlight: return readSpotlight(arguments);
     case Type::source:
     case Type::sphere:
     case Type::bubble:
@@ -198,8 +168,7 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
     case Type::ring:
     case Type::instance:
     case Type::mesh:
-    case Type::alias:
-      break;  // not modifiers; modifier() resolves aliases
+    case Type::alias: break;  // not modifiers; modifier() resolves aliases
   }
   arguments.fail("this type is not supported yet");
 }

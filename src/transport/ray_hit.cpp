@@ -31,11 +31,8 @@ SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsi
       case Cover::yields:
         if (glow == kNone) glow = s;
         break;
-      case Cover::passes:
-        passedIllum = true;
-        break;
-      case Cover::hides:
-        return s;
+      case Cover::passes: passedIllum = true; break;
+      case Cover::hides: return s;
     }
   }
   // The illum includes the light from behind it. An indirect ray through it would count that light twice.

@@ -81,10 +81,8 @@ Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sampl
   const SurfaceId source = light.isDistant() ? SurfaceId() : light.surface;
   switch (
       prepared_.tracer().shadow(at.point, sample.direction, sample.distance, source, nullptr, at.surface)) {
-    case Shadow::clear:
-      return Coefficient(1);
-    case Shadow::blocked:
-      return {};
+    case Shadow::clear: return Coefficient(1);
+    case Shadow::blocked: return {};
     default:
       return light.isDistant()
                  ? surfaces_.passingToSource(at.point, sample.direction, sample.distance, at.surface)
