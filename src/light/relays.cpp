@@ -429,8 +429,8 @@ class Images {
     }
   }
 
-  // The way of an image's light: the way of the source's light as seen in the relay, then the relay itself,
-  // of which the light reaches the hull of `part`.
+  // The passages of an image's light: those of the source's light, as they appear in the relay, and then the
+  // relay itself. part: points whose hull contains the part of the relay that the light reaches.
   static Way wayThrough(const LightSource& image, const Way& before, const Relay& relay,
                         const std::vector<V3d>& part, const Projection& projection) {
     Way way;

@@ -267,7 +267,7 @@ double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSo
 }
 
 // The two branches of directCoefficient(), for sources in front of the surface and behind it. enters: the
-// fraction of light that remains for diffuse scattering.
+// fraction of the light that is not reflected specularly, and is therefore scattered diffusely.
 Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
                                  double cosine, double enters, double solidAngle, double sourceJitter) {
   Coefficient sum(s.diffuseReflection * (enters * cosine * solidAngle * kPerPi));

@@ -161,8 +161,6 @@ size_t DirectLight::lookAheadOf(size_t count) {
 
 // Sorts the contributions by brightness, brightest first. Equal contributions keep their order.
 void DirectLight::rankByBrightness(uint32_t count) {
-  // A few contributions are ranked by comparing all pairs without branches; std::sort would mispredict half
-  // of its branches.
   if (count > kFew) {
     std::iota(scratch_.order.begin(), scratch_.order.begin() + count, 0);
     std::sort(scratch_.order.begin(), scratch_.order.begin() + count, [&](uint32_t a, uint32_t b) {

@@ -31,8 +31,9 @@ struct NearLight {
   // The fraction of the light between two diffuse surfaces at this distance that rays estimate, because
   // vertices would make it too noisy.
   double share(double distance) const { return width * width / (distance * distance + width * width); }
-  // The part of share() that rays leave to joins with the eye, because rays hit narrow gaps too rarely. A gap
-  // is narrow relative to fromEye, the distance of the place from the eye.
+  // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
+  // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
+  // eye.
   double closeShare(double distance, double fromEye) const;
 };
 

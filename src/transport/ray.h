@@ -101,9 +101,9 @@ struct SurfaceHit {
   PlacementPath path;   // the instances that contain the surface
   V3d normal{0, 0, 0};  // shading turns it towards the ray's origin
   double cosine = 1;    // -normal . direction; negative for a hit from behind, until shading flips it
-  // Normal, cosine and perturbation were flipped, because the surface was hit from behind.
-  bool fromBehind = false;
-  bool insideOut = false;  // they were flipped at a surface cut by antimatter, whose front is the inside
+  // Whether normal, cosine and perturbation were flipped: because the surface was hit from behind, or because
+  // antimatter cuts it, so that its front is the inside.
+  bool fromBehind = false, insideOut = false;
   // The perturbation of the normal. Its first value is that of a smooth mesh. Afterwards only modifiers
   // change it, apart from flips. Only modifiers change the pattern, which irradiance (-i) ignores
   // (SurfaceShading).

@@ -258,9 +258,9 @@ struct VertexLight {
   // Probability of a gather at a surface that is seen in a reflection. The gather estimates light that has
   // reached the surface by another reflection, which vertices do not provide.
   //
-  // At a visible place, a path from the eye is followed for the light that is left to such paths. If at least
-  // this fraction of the hits of light paths are on unknown surfaces, it is always followed. If fewer are,
-  // the probability is proportional to their fraction, but at least half of this.
+  // At a place that the eye sees directly, a path from the eye estimates the light that light paths do not
+  // bring. It is always followed if at least this fraction of the hits of light paths are on unknown
+  // surfaces. If fewer are, the probability is proportional to their fraction, but at least half of this.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 
