@@ -52,15 +52,20 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 }  // namespace
 
 FieldOptions fieldOptions(const RayOptions& o) {
-  return {o.ambientBounces,
-          o.ambientAccuracy,
-          o.ambientResolution,
-          static_cast<double>(std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches)),
-          o.coarserLinks,
-          o.leastForPatches > 0,
-          o.ambientValue,
-          o.sampling != nullptr,
-          o.fieldMemory};
+  FieldOptions field;
+  // Names all members, so that adding one makes this fail to compile.
+  auto& [bounces, accuracy, resolution, rays, coarserLinks, patchesAtFirst, ambientValue, spectral, memory] =
+      field;
+  bounces = o.ambientBounces;
+  accuracy = o.ambientAccuracy;
+  resolution = o.ambientResolution;
+  rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
+  coarserLinks = o.coarserLinks;
+  patchesAtFirst = o.leastForPatches > 0;
+  ambientValue = o.ambientValue;
+  spectral = o.sampling != nullptr;
+  memory = o.fieldMemory;
+  return field;
 }
 
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn) {

@@ -32,6 +32,16 @@ RayKind kindOfShadow(const SurfaceHit& hit, const V3d& direction) {
   return through ? kTransmittedShadow : kReflectedShadow;
 }
 
+// Lets a ray end at the sample of a source at which it is aimed.
+void putAtSource(RayEnd& end, const LightSource& source, const SourceSample& sample) {
+  const RayQuery& ray = end.ray;
+  end.hit.surface = source.surface;
+  end.hit.length = sample.distance;
+  end.hit.point = sample.distance < kFarAway ? ray.origin + sample.distance * ray.direction : ray.origin;
+  end.hit.normal = sample.normal;
+  end.hit.cosine = sample.cosine;
+}
+
 // The number of sources of a kind that were tested for shadows, and the number of those that are visible.
 struct Tests {
   int tested = 0, visible = 0;
@@ -68,12 +78,7 @@ Radiance DirectLight::sourceValue(Receiver at, const SourceSample& sample) {
                             .kinds = at.end.context.kinds | kReflectedShadow,
                             .pathLength = at.end.context.pathLength + at.end.hit.length};
   RayEnd end(query, context);
-  end.hit.surface = light.surface;
-  end.hit.length = sample.distance;
-  end.hit.point =
-      sample.distance < kFarAway ? query.origin + sample.distance * query.direction : query.origin;
-  end.hit.normal = sample.normal;
-  end.hit.cosine = sample.cosine;
+  putAtSource(end, light, sample);
   RayResult result;
   follower_.shade(end, t_.scene().surfaces[light.surface].modifier, result);
   return result.value * passed;
@@ -140,11 +145,7 @@ void DirectLight::show(Receiver at, const Contribution& to) {
   NextRay next(at.end, kindOfShadow(at.end.hit, sample.direction), Coefficient(1));
   if (!aim(next, at, to)) return;
   RayEnd end(next.query, next.context);
-  end.hit.surface = t_.lights().all()[sample.source].surface;
-  end.hit.length = sample.distance;
-  end.hit.point = sample.distance < kFarAway ? at.point + sample.distance * sample.direction : at.point;
-  end.hit.normal = sample.normal;
-  end.hit.cosine = sample.cosine;
+  putAtSource(end, t_.lights().all()[sample.source], sample);
   RayResult result;
   result.value = to.value;
   result.unmirroredLength = sample.distance;

@@ -21,20 +21,15 @@ using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double so
 // (shared_highlights.h). It is subtracted for a source sample only if the sample is not occluded.
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
-class DirectLight {
+class DirectLight : PathPart {
   // Binary logarithm of the size of the table of blockers, which takes 16 kB, half of a core's first-level
   // cache.
   static constexpr int kBlockerBits = 12;
 
  public:
-  // Keeps references. follower: follows shadow rays through surfaces that may transmit light.
-  DirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-              RayFollower& follower)
-      : t_(prepared),
-        settings_(settings),
-        state_(state),
-        follower_(follower),
-        blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
+  // Shadow rays are followed through surfaces that may transmit light.
+  explicit DirectLight(const PathPart& path)
+      : PathPart(path), blockers_(size_t{1} << kBlockerBits, Tracer::kNoBlocker) {}
 
   // The place that is lit: the end of a ray, or the far side of a thick surface that transmits light (world).
   struct Receiver {
@@ -88,10 +83,6 @@ class DirectLight {
     return blockers_[(both * 0x9e3779b97f4a7c15u) >> (64 - kBlockerBits)];
   }
 
-  const PreparedScene& t_;
-  const PathSettings& settings_;
-  PathState& state_;
-  RayFollower& follower_;
   // Memory that all calls reuse, so that none is allocated. Calls do not nest, because shadow rays never
   // compute direct light. Elements beyond those of the current call are left over from earlier calls.
   struct Scratch {

@@ -21,12 +21,10 @@ struct DiffuseSide {
   const Coefficient& coefficient;  // factor on the mean arriving radiance in the radiance of the ray
 };
 
-class IndirectLight {
+class IndirectLight : PathPart {
  public:
-  // Keeps references. follower: traces the rays of gathers, and those that the caches request.
-  IndirectLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                RayFollower& follower)
-      : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
+  // The rays of gathers are followed, and those that the caches request.
+  explicit IndirectLight(const PathPart& path) : PathPart(path) {}
 
   // Adds the indirect light of a side to the radiance of a ray (W/sr/m2); beyond -ab bounces, adds the
   // ambient value (-av). Light from behind the surface is excluded.
@@ -44,10 +42,6 @@ class IndirectLight {
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);
 
-  const PreparedScene& t_;
-  const PathSettings& settings_;
-  PathState& state_;
-  RayFollower& follower_;
   FieldReader reader_;
   bool looksOnly_ = false;  // rays of the first gather end at the first diffuse surface (-Sh)
 };

@@ -67,7 +67,7 @@ class PathTracer::Path final : public RayFollower {
   Path(const PreparedScene& prepared, const PathSettings& settings)
       : t_(prepared),
         settings_(settings),
-        shading_(prepared, settings_, state_, *this),
+        shading_({prepared, settings_, state_, *this}),
         media_(prepared, state_, shading_.direct()) {}
 
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {

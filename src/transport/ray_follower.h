@@ -5,6 +5,7 @@
 
 namespace rsphere {
 
+class PreparedScene;
 struct PathSettings;
 struct PathState;
 class RayFollower;
@@ -14,6 +15,14 @@ struct InnerPath {
   PathState& state;
   const PathSettings& settings;
   RayFollower& follower;
+};
+
+// What each part of the path tracer refers to, all parts to the same.
+struct PathPart {
+  const PreparedScene& t_;
+  const PathSettings& settings_;
+  PathState& state_;
+  RayFollower& follower_;  // follows the rays that the part sends
 };
 
 class RayFollower {

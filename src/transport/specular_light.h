@@ -15,12 +15,9 @@ using LobeSampler = FunctionRef<LobeSample(int i, int n)>;
 // (shared_highlights.h).
 using LobeShare = FunctionRef<Radiance(const RayEnd& sample)>;
 
-class SpecularLight {
+class SpecularLight : PathPart {
  public:
-  // Keeps references.
-  SpecularLight(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                RayFollower& follower)
-      : t_(prepared), settings_(settings), state_(state), follower_(follower) {}
+  explicit SpecularLight(const PathPart& path) : PathPart(path) {}
 
   // Each function adds light to the result of a ray (W/sr/m2): that of sharp paths from the ray's end; that
   // of rays redirected by a prism; and, for a shadow ray that has hit the relay of a virtual source, that of
@@ -36,12 +33,6 @@ class SpecularLight {
   // none.
   void addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw, const LobeShare* share,
                RayResult& result);
-
- private:
-  const PreparedScene& t_;
-  const PathSettings& settings_;
-  PathState& state_;
-  RayFollower& follower_;
 };
 
 }  // namespace rsphere

@@ -57,16 +57,10 @@ void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
 
 }  // namespace
 
-SurfaceShading::SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                               RayFollower& follower)
-    : t_(prepared),
-      settings_(settings),
-      state_(state),
-      follower_(follower),
-      light_{{prepared, settings, state, follower},
-             {prepared, settings, state, follower},
-             {prepared, settings, state, follower}},
-      context_{prepared.scene(), prepared.functions(), materialOptions(prepared)} {}
+SurfaceShading::SurfaceShading(const PathPart& path)
+    : PathPart(path),
+      light_{DirectLight(path), SpecularLight(path), IndirectLight(path)},
+      context_{t_.scene(), t_.functions(), materialOptions(t_)} {}
 
 // Gives the material access to the end of a ray.
 class SurfaceShading::Seen final : public MaterialHit {

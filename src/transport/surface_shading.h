@@ -12,11 +12,9 @@
 
 namespace rsphere {
 
-class SurfaceShading {
+class SurfaceShading : PathPart {
  public:
-  // Keeps references.
-  SurfaceShading(const PreparedScene& prepared, const PathSettings& settings, PathState& state,
-                 RayFollower& follower);
+  explicit SurfaceShading(const PathPart& path);
 
   DirectLight& direct() { return light_.direct; }
   IndirectLight& indirect() { return light_.indirect; }
@@ -97,10 +95,6 @@ class SurfaceShading {
   template <ScattersLight S>
   Coefficient lobesCoefficient(const S& scattering, const SourceSample& sample) const;
 
-  const PreparedScene& t_;
-  const PathSettings& settings_;
-  PathState& state_;
-  RayFollower& follower_;
   struct Parts {
     DirectLight direct;
     SpecularLight specular;
