@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "transport/ray_functions.h"
+#include "transport/ray_hit.h"
 #include "transport/ray_limits.h"
 
 namespace rsphere {
@@ -30,16 +31,6 @@ int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDi
 RayKind kindOfShadow(const SurfaceHit& hit, const V3d& direction) {
   const bool through = (hit.cosine > 0) != (hit.normal.dot(direction) > 0);
   return through ? kTransmittedShadow : kReflectedShadow;
-}
-
-// Lets a ray end at the sample of a source at which it is aimed.
-void putAtSource(RayEnd& end, const LightSource& source, const SourceSample& sample) {
-  const RayQuery& ray = end.ray;
-  end.hit.surface = source.surface;
-  end.hit.length = sample.distance;
-  end.hit.point = sample.distance < kFarAway ? ray.origin + sample.distance * ray.direction : ray.origin;
-  end.hit.normal = sample.normal;
-  end.hit.cosine = sample.cosine;
 }
 
 // The number of sources of a kind that were tested for shadows, and the number of those that are visible.

@@ -226,11 +226,7 @@ TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample
   const RayQuery ray{.origin = point, .direction = sample.direction};
   const PathContext context = path_->context();
   RayEnd end(ray, context);
-  end.hit.surface = light.surface;
-  end.hit.length = sample.distance;
-  if (!light.isDistant()) end.hit.point = point + sample.distance * sample.direction;
-  end.hit.normal = sample.normal;
-  end.hit.cosine = sample.cosine;
+  putAtSource(end, light, sample);
   RayResult result;
   result.unmirroredLength = sample.distance;
   path_->shading_.shade(end, result);

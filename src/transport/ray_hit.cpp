@@ -89,4 +89,13 @@ Hit findHit(const PreparedScene& prepared, RayEnd& end) {
   return nearest;
 }
 
+void putAtSource(RayEnd& end, const LightSource& source, const SourceSample& sample) {
+  end.hit.surface = source.surface;
+  end.hit.length = sample.distance;
+  end.hit.point =
+      sample.distance < kFarAway ? end.ray.origin + sample.distance * end.ray.direction : end.ray.origin;
+  end.hit.normal = sample.normal;
+  end.hit.cosine = sample.cosine;
+}
+
 }  // namespace rsphere

@@ -9,4 +9,7 @@ namespace rsphere {
 // the tracer's hit. REQUIRES that the ray has no hit yet.
 Hit findHit(const PreparedScene& prepared, RayEnd& end);
 
+// Lets a ray hit the sample of a source at which it is aimed.
+void putAtSource(RayEnd& end, const LightSource& source, const SourceSample& sample);
+
 }  // namespace rsphere

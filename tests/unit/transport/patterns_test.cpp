@@ -811,6 +811,20 @@ TEST_F(Patterns, RaysToAGoalTakeTheRandomNumbersOfTheirSeed) {
   EXPECT_NE(toGoal(fresh, 8), first) << "the path takes no random numbers, and the test shows nothing";
 }
 
+// A pattern of a distant source is evaluated at the origin of the ray, also if the source is known to be
+// visible.
+TEST_F(Patterns, RaysToADistantSourceShowItsPatternAtTheirOrigin) {
+  const std::string text =
+      "void brightfunc p\n2 Px+2 .\n0\n0\np light sun\n0\n0\n3 1 1 1\nsun source s\n0\n0\n4 0 0 1 5\n";
+  const Scene scene = buildScene(rad::readSceneText(text, "sky.rad"));
+  const Transport transport(scene, unbiased(), IrradianceAt::none);
+  PathTracer tracer = transport.pathTracer();
+  const V3d point(1, 0, 0), up(0, 0, 1);
+  const SourceSample sample{.direction = up, .distance = kFarAway, .normal = -up, .source = LightId(0)};
+  EXPECT_EQ(tracer.trace(point, up, 0, 1).value.color.x, 3);
+  EXPECT_EQ(tracer.traceToSource(point, sample, 1).value.color.x, 3);
+}
+
 TEST_F(Patterns, MixturesNestAsDeepAsMakesSense) {
   const auto nested = [](int depth) {
     std::string text = kGlowA, last = "A";
