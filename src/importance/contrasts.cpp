@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "base/spectral_sampling.h"
 #include "importance/tuning.h"
@@ -78,27 +77,42 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
 
 }  // namespace
 
-Contrasts measureContrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
-                           const SeenSources& sources) {
-  Contrasts contrasts;
-  if (objects.empty() && !tracing.aims.openings) return contrasts;
+Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+                     const SeenSources& sources)
+    : tracing_{tracing.prepared, tracing.caches, tracing.aims, tracing.vertexLight},
+      sources_(sources),
+      objects_(objects.begin(), objects.end()) {
+  if (objects.empty() && !tracing.aims.openings) return;
   const Scene& scene = tracing.prepared.scene();
-  std::map<ModifierId, std::vector<SpecialObject>> alike;  // by modifier
-  for (const SpecialObject& object : objects)
-    alike[scene.surfaces[object.surface].modifier].push_back(object);
-  PathTracer tracer = tracing.tracer();
-  PathRequest request;
-  request.vertexLight = tracing.vertexLight.get();
-  if (!tracing.vertexLight)
-    contrasts.baseError =
-        measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
-  if (alike.empty()) return contrasts;
-  const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike.size(), 2, tuning::Contrasts::kRays);
-  for (const auto& [modifier, same] : alike) {
-    const double deviation = measureDeviation(scene, same, rays, sources, request, tracer);
-    for (const SpecialObject& object : same) contrasts.objects.push_back({object, deviation});
+  const auto modifierOf = [&](const SpecialObject& object) {
+    return scene.surfaces[object.surface].modifier;
+  };
+  std::ranges::stable_sort(objects_, {}, modifierOf);
+  for (size_t i = 0; i < objects_.size(); ++i) {
+    if (i == 0 || modifierOf(objects_[i]) != modifierOf(objects_[i - 1])) {
+      alike_.push_back(std::make_unique<Alike>());
+      alike_.back()->first = i;
+    }
+    ++alike_.back()->count;
+    alikeOf_.push_back(static_cast<uint32_t>(alike_.size() - 1));
   }
-  return contrasts;
+  if (tracing.vertexLight) return;
+  PathTracer tracer = tracing_.tracer();
+  baseError_ = measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
+}
+
+double Contrasts::deviationOn(size_t object) const {
+  Alike& alike = *alike_[alikeOf_[object]];
+  std::call_once(alike.measured, [&] {
+    const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike_.size(), 2, tuning::Contrasts::kRays);
+    PathTracer tracer = tracing_.tracer();
+    PathRequest request;
+    request.vertexLight = tracing_.vertexLight.get();
+    alike.deviation =
+        measureDeviation(tracing_.prepared.scene(), std::span(objects_).subspan(alike.first, alike.count),
+                         rays, sources_, request, tracer);
+  });
+  return alike.deviation;
 }
 
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources) {

@@ -88,8 +88,8 @@ bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d&
 
 std::vector<Box3d> boxesOf(const Scene& scene, const Contrasts& contrasts) {
   std::vector<Box3d> boxes;
-  for (const Contrasts::Object& c : contrasts.objects)
-    boxes.push_back(bounds(shapeOf(scene, c.object), verticesOf(scene, c.object)));
+  for (const SpecialObject& object : contrasts.objects())
+    boxes.push_back(bounds(shapeOf(scene, object), verticesOf(scene, object)));
   return boxes;
 }
 
@@ -115,16 +115,16 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
     : prepared_(tracing.prepared),
       sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
-      contrasts_(measureContrasts(tracing, objects, sources)),
+      contrasts_(tracing, objects, sources),
       hidden_(prepared_.lights().hidden().blockers(), boxesOf(prepared_.scene(), contrasts_), kFewHidden),
       glints_(tracing.prepared, objects) {
   const Openings* const openings = tracing.aims.openings;
-  radiances_.resize(contrasts_.objects.size());
+  radiances_.resize(contrasts_.objects().size());
   if (!openings) return;
   for (const Openings::View& view : openings->views()) {
     bool hasSpecial = false;
     for (size_t i = 0; i < radiances_.size(); ++i) {
-      if (!liesIn(prepared_.scene(), contrasts_.objects[i].object, view.place)) continue;
+      if (!liesIn(prepared_.scene(), contrasts_.objects()[i], view.place)) continue;
       radiances_[i] = view.radiance;
       hasSpecial = true;
     }
@@ -135,7 +135,7 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
 Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const {
   std::vector<Target> targets;
   if (most == 0) return Targets({});
-  const double usual = contrasts_.baseError * meanBrightness;
+  const double usual = contrasts_.baseError() * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
   double sum = 0;
   // opening: mean radiance of the daylight that it may show, W/sr/m2; 0: not an opening.
@@ -152,10 +152,9 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
-  for (const uint32_t i : hidden_.notHiddenFrom(point)) {
-    const Contrasts::Object& c = contrasts_.objects[i];
-    add(silhouetteOf(prepared_.scene(), c.object, point), c.deviation, false, radiances_[i]);
-  }
+  for (const uint32_t i : hidden_.notHiddenFrom(point))
+    add(silhouetteOf(prepared_.scene(), contrasts_.objects()[i], point), contrasts_.deviationOn(i), false,
+        radiances_[i]);
   if (usual > 0)
     for (Glint& g : glints_.find(point, tuning::Targets::kLeastGlint * kFullSphere * usual * usual))
       add(std::move(g.region), tuning::Targets::kPartlyLit * g.brightness, g.continues);

@@ -67,12 +67,12 @@ class TargetChoice {
   const PreparedScene& prepared_;
   std::span<const BrightSpots::Sunlit> sunlit_;
   std::vector<Openings::View> openings_;  // openings without special objects in them
-  // By index in contrasts_.objects: the mean radiance (W/sr/m2) of the opening that contains the object, as
+  // By index in contrasts_.objects(): the mean radiance (W/sr/m2) of the opening that contains the object, as
   // seen from the dark side; 0 if no opening contains it.
   std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;
-  HiddenBoxes hidden_;  // the boxes around contrasts_.objects
+  HiddenBoxes hidden_;  // the boxes around contrasts_.objects()
   Glints glints_;
 };
 

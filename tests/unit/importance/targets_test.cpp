@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -177,9 +178,9 @@ TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
 TEST(Contrasts, NoneOfDiffuseScenes) {
   const Setting setting;
   const SeenSources sources(setting.transport->prepared());
-  const Contrasts contrasts = measureContrasts(setting.tracing(), {}, sources);
-  EXPECT_TRUE(contrasts.objects.empty());
-  EXPECT_EQ(contrasts.baseError, 1);
+  const Contrasts contrasts(setting.tracing(), {}, sources);
+  EXPECT_TRUE(contrasts.objects().empty());
+  EXPECT_EQ(contrasts.baseError(), 1);
 }
 
 // Under a sky that is 1 above and 0 below a mirror shows .9 or 0, with a deviation of at most .45.
@@ -189,10 +190,28 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
               "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere s 0 0 4 0 0 0 1\n"));
   const auto objects = findSpecialObjects(setting.scene, 1);
   const SeenSources sources(setting.transport->prepared());
-  const Contrasts contrasts = measureContrasts(setting.tracing(), objects, sources);
-  ASSERT_EQ(contrasts.objects.size(), 1u);
-  EXPECT_NEAR(contrasts.objects[0].deviation, .45, .05);
-  EXPECT_GT(contrasts.baseError, 0);
+  const Contrasts contrasts(setting.tracing(), objects, sources);
+  ASSERT_EQ(contrasts.objects().size(), 1u);
+  EXPECT_NEAR(contrasts.deviationOn(0), .45, .05);
+  EXPECT_GT(contrasts.baseError(), 0);
+}
+
+// Objects are measured when they are asked for, and the result does not depend on the order.
+TEST(Contrasts, DoNotDependOnTheOrderOfRequests) {
+  const SphereSetting setting(
+      sceneOf("void glow sky 0 0 4 1 1 1 0\nsky source dome 0 0 4 0 0 1 180\n"
+              "void metal dull 0 0 5 .4 .4 .4 1 0\nvoid metal chrome 0 0 5 .9 .9 .9 1 0\n"
+              "chrome sphere s 0 0 4 0 0 0 1\ndull sphere t 0 0 4 5 0 0 1\nchrome sphere u 0 0 4 9 0 0 1\n"));
+  const auto objects = findSpecialObjects(setting.scene, 1);
+  const SeenSources sources(setting.transport->prepared());
+  const Contrasts one(setting.tracing(), objects, sources), other(setting.tracing(), objects, sources);
+  ASSERT_EQ(one.objects().size(), 3u);
+  std::array<double, 3> forwards{}, backwards{};
+  for (size_t i = 0; i < 3; ++i) forwards[i] = one.deviationOn(i);
+  for (size_t i = 3; i-- > 0;) backwards[i] = other.deviationOn(i);
+  EXPECT_EQ(forwards, backwards);
+  EXPECT_EQ(forwards[0], forwards[1]) << "both are of chrome";
+  EXPECT_GT(forwards[1], forwards[2]);
 }
 
 }  // namespace
