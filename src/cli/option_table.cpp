@@ -563,9 +563,9 @@ void addGatheringOptions(const Add& add) {
            "is faster for a few rays or points in a detailed scene: interpolation begins with up to "
            "seconds of work there, because no answer may depend on the number of records. For sensors "
            "(-I), interpolation is faster from 3 to 20 sensors on in daylit rooms, and from 50 to 100 on "
-           "with luminaires. In sphere mode, -aa has no effect if light paths from the sources find all "
-           "light (see -Sw): the program then computes no coarse solution, because light paths take less "
-           "time for the same error."});
+           "with luminaires. In sphere mode, it is faster from 10 to 100 points on by daylight, and has "
+           "no effect where light paths from lamps are used (see -Sw): the program then computes no "
+           "coarse solution, because light paths take less time for the same error."});
   add({.name = "-ar",
        .arguments = "res",
        .group = Group::indirect,
