@@ -21,8 +21,8 @@ namespace {
 // room of 10 m, at -aa .15.
 constexpr int kUnlimited = 65536;
 
-// Two points of a curved surface are tested for visibility at this height above it, in chords times the angle
-// (rad) between the normals. An arc rises above its chord by 1/8 of that product; the rest is a margin.
+// On curved surfaces, visibility is tested higher above two points: by this times their distance times the
+// angle (rad) between their normals. An arc rises above its chord by 1/8 of that; the rest is a margin.
 constexpr double kBulge = .15;
 
 // Approximate memory overhead of an allocation and of a table entry (bytes).

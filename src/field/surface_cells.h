@@ -111,8 +111,8 @@ class SurfaceChart {
   std::optional<Placement> placement_;
   const Sphere* ball_ = nullptr;
   const Cone* cone_ = nullptr;
-  // A sphere has six charts, the faces of a cube around it. These are the axis normal to the face, and its
-  // sign.
+  // A sphere has six charts, the faces of a cube around it. A face is given by the axis normal to it, and the
+  // sign of its direction along that axis.
   int axis_ = 2;
   double sign_ = 1;
 };

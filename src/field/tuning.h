@@ -108,8 +108,8 @@ struct CoarseSolution {
   // Reducing it by 30% makes sensors by sun take 65% more time; increasing it by 30% has no effect beyond
   // noise.
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
-  // Number of patches across a strip, such as a slat, that is narrower than the usual patches of its level
-  // although its surroundings require patches smaller than the strip. Measured: with 1, sensors near a window
+  // Number of patches across a narrow strip, such as a slat, where the patches of its level are wider than
+  // the strip, but its surroundings require patches narrower than it. Measured: with 1, sensors near a window
   // with blinds are 33% too bright.
   RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
   // One of the six sides of a ball, or a cone, is enclosed if the root mean square distance of the

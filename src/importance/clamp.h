@@ -15,8 +15,8 @@ namespace rsphere {
 // total: the whole integral, including light that is not among the samples (W/m2).
 //
 // Rejected alternatives: a limit of radiance, because it would depend on the scene; and a share of the
-// integral after clamping with that same limit, because it removes everything where many directions
-// contribute more than their share.
+// integral that remains after clamping with this very limit, because where many directions contribute more
+// than their share, no light would remain.
 Irradiance clampContributions(std::span<DirectionSample> samples, const Irradiance& total, double share,
                               const SpectralSampling* sampling);
 

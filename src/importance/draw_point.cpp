@@ -17,8 +17,8 @@ namespace rsphere {
 namespace {
 
 // Two points on a ball may share light if each is near the plane of the other, within
-// tuning::Pictures::kNear. Their normals then differ by at most this cosine. Surfaces that meet in an edge
-// differ more.
+// tuning::Pictures::kNear. The cosine of the angle between their normals is then at least this. Normals of
+// surfaces that meet in an edge differ more.
 const float kSameNormal = 1 - 2 * tuning::Pictures::kNear * tuning::Pictures::kNear;
 
 const Smoothing kOfIndirect{tuning::Pictures::kIndirectPasses, tuning::Pictures::kFinePasses,

@@ -139,7 +139,7 @@ struct Silhouettes {
   // that 1.3% of the directions to it miss the object. When searching for images on balls, light sources with
   // more corners are replaced by squares around them. Insensitive.
   static constexpr int kCorners = 16;
-  // Cells along each edge of a face of the cube that lists the silhouettes near a direction: chosen by
+  // Cells along each edge of a face of the cube map that lists the silhouettes near a direction: chosen by
   // experiment. Without cells, the search among 180 special objects took 18% of the time. The number only
   // affects the time. tests/bench/sensitivity does not vary it, because it is the size of a table.
   static constexpr int kSide = 6;
@@ -196,10 +196,10 @@ struct Stopping {
   // One answer in 50, instead of 25, then needs further sets because its own error estimate is too large.
   // Those sets cause the remaining bias. Insensitive.
   RSPHERE_TUNED(Stopping, double, kMargin, .95);
-  // Cap on the ratio between the halves' numbers of sets: derived. If a set finds something very bright, the
-  // other half gets many sets. Because of the cap, the half of the bright set also gets some, which outweigh
-  // it sooner. With a ratio of 1, the number of sets of a half would depend on its own sets, which is the
-  // bias that the halves avoid. 2 is therefore the smallest integer.
+  // Cap on the ratio between the numbers of sets of the two halves: derived. If a set finds something very
+  // bright, the other half is given many sets. The cap gives the half of the bright set some as well, and
+  // these reduce its weight sooner. With a ratio of 1, the number of sets of a half would depend on its own
+  // sets, which is the bias that the halves avoid. 2 is therefore the smallest integer.
   static constexpr size_t kMostRatio = 2;
 };
 

@@ -313,9 +313,10 @@ Weights weightsAt(double position, size_t count) {
 
 constexpr std::string_view kColors = "32-bit_rle_rgbe", kSpectra = "Radiance_spectra";
 
-// Rejects a picture whose file is too short, before memory is allocated. The new code packs at most 127
-// values of a channel into two bytes, which is 16 pixels per byte. The old code has no such limit: a uniform
-// row takes 12 bytes. Up to 64 million pixels (256 MB), only the shortest possible row is therefore checked.
+// Rejects a picture whose file is too short, before memory is allocated. In the new code, two bytes hold at
+// most 127 values of one of four channels: 16 pixels per byte. In the old code, 12 bytes may hold a whole
+// row. Up to 64 million pixels (256 MB), the file is therefore only required to have 4 bytes per row; beyond,
+// twice the pixels of the new code are allowed.
 void checkLength(const Layout& layout, const Bytes& bytes) {
   constexpr size_t kAnyCode = size_t{1} << 26, kLeastRow = 4;
   const size_t left = bytes.left();

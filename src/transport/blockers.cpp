@@ -14,9 +14,9 @@ constexpr size_t kMostKnown = 8;  // number of recent blockers that are kept
 // wall.
 constexpr int kSurfacesInTheWay = 6;
 
-// The smallest distance of boxes from the plane of a polygon that hides one from the other (world units). It
-// is needed because surfaces nearer than kSamePlace to an end of a ray do not block it, and because rays
-// whose cosine to a plane is at most kSamePlace miss the plane.
+// The smallest distance that boxes must have from the plane of a polygon that hides one box from the other
+// (world units). Without it, rays could pass the polygon: a surface nearer than kSamePlace to an end of a ray
+// does not block it, and a ray whose cosine to a plane is at most kSamePlace misses the plane.
 double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
 
 std::array<V3d, 8> cornersOf(const Box3d& box) {

@@ -175,9 +175,9 @@ void merge(std::vector<Opening>& panes) {
     }
 }
 
-// The area of a wall as wide and high as the scene, with which areas of openings are compared (square world
-// units). A wide ground does not count: compared with its area, the windows of a room on a ground of 1 km
-// would be too small. If the scene is flat, the height is a thousandth of the width.
+// The area of a wall as wide and high as the scene (square world units), with which areas of openings are
+// compared. The area of the ground would not do: on a ground of 1 km, the windows of a room would be too
+// small. If the scene is flat, the height is a thousandth of the width.
 double wallOf(const V3d& size) {
   const auto [least, most] = std::minmax({size.x, size.y, size.z});
   return most * std::max(least, 1e-3 * most);

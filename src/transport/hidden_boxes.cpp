@@ -203,12 +203,12 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   return *region.halves[which];
 }
 
-// For a point of a surface that is perpendicular to an axis: a place in the region in front of the surface.
-// For other points: the point itself. Every box in front of the surface that is hidden from that place is
-// hidden from the point too:
-// - Blockers that are not perpendicular to an axis hide it from all places within Blockers::kBeside of the
-//   region.
-// - Other blockers hide it from the point too, unless it lies behind the surface.
+// Returns a place in the region in front of the surface of the point, if that surface is perpendicular to an
+// axis; otherwise the point itself. A box in front of the surface that is hidden from this place is hidden
+// from the point too:
+// - A blocker that is not perpendicular to an axis hides the box from all places within Blockers::kBeside
+//   times margin() of the region.
+// - Any other blocker hides the box from the point too, unless the box lies behind the surface.
 V3d HiddenBoxes::beside(const V3d& point, const V3d& front) const {
   const double along = std::max({std::abs(front.x), std::abs(front.y), std::abs(front.z)});
   return along > 1 - 1e-12 ? point + Blockers::kBeside * blockers_->margin() * front : point;

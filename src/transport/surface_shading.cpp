@@ -273,8 +273,8 @@ bool SurfaceShading::leavesThroughPortal(const RayEnd& end) const {
                                                                  end.hit.length);
 }
 
-// Rays before the first diffuse surface show what is outdoors; so do reflections through which light vertices
-// are not joined. DirectLight itself leaves out shadow rays.
+// Whether the light of a ray is left to portals: it leaves through one after a diffuse surface, but not by a
+// reflection through which light vertices are not joined. DirectLight itself leaves out shadow rays.
 bool SurfaceShading::leftToPortals(const RayEnd& end) const {
   const PathContext& ray = end.context;
   return ray.ambientLevel > 0 && !(ray.kinds & kShadow) && leavesThroughPortal(end) &&
