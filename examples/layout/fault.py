@@ -62,5 +62,8 @@ def run_program(main):
         return main()
     except Fault as text:
         sys.exit(f"{name}: {text}")
+    except KeyboardInterrupt:
+        print(f"{name}: interrupted", file=sys.stderr)
+        sys.exit(3)
     except BrokenPipeError:
         sys.exit(1)

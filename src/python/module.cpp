@@ -33,6 +33,7 @@ auto withoutLock(SomeOptions& options, const Work& work) {
       const py::gil_scoped_release released;
       return work();
     }();
+    if (PyErr_Occurred()) throw py::error_already_set();  // interrupted when the work was all but done
     issue();
     return result;
   } catch (const Error& error) {

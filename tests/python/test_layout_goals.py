@@ -4,9 +4,11 @@ PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has th
 """
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.dom.minidom
 
@@ -191,6 +193,20 @@ class Goals(unittest.TestCase):
         self.assertGreater(x, 120)
         self.assertEqual(y, 246)
         self.assertEqual(free_corner(desk, "desk1", [(80, 232, 210, 260)]), (94, 212), "all along the lower edge")
+
+    def test_control_c(self):
+        """It was a traceback."""
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = os.path.join(folder, "goals.txt"), os.path.join(folder, "out")
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write("\n".join(GOOD).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")))
+            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", out, "--no-plan", "-d", "65536"]
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+                while not os.path.isdir(out) and run.poll() is None:
+                    time.sleep(0.02)
+                run.send_signal(signal.SIGINT)
+                self.assertEqual(run.communicate()[1], "layout: interrupted\n")
+            self.assertEqual(run.returncode, 3)
 
     def test_second_goal(self):
         run, _ = self.run_on([*GOOD, "illuminance floor 100", "illuminance floor 200"])

@@ -417,6 +417,16 @@ class Threads(unittest.TestCase):
         timer.join()
         self.assertEqual(scene.sphere(POINTS, Sn=64).mean.shape, (3, 3))
 
+    def test_control_c_while_the_last_record_is_answered(self):
+        """It was a SystemError: the call returned its answers although the signal had raised an exception."""
+        scene = rsphere.Scene(ROOM)
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            scene.sphere(POINTS[:1], Sn=20000, Sx=40000, ab=2)
+            self.fail("the call took too little time")
+        timer.join()
+
 
 class Page(unittest.TestCase):
     """examples/python/README.md: its program runs, and what takes the place of rtrace has rtrace's numbers."""
