@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "answer/header.h"
 #include "answer/report_interval.h"
@@ -28,7 +29,9 @@ class PictureMaker {
         sources_(transport_.prepared()),
         report_(report) {}
 
-  void write(const std::string& name, const V3d& point, const std::function<void()>& checkStop) const;
+  // file: for the picture `name`.
+  void write(PictureFile& file, const std::string& name, const V3d& point,
+             const std::function<void()>& checkStop) const;
 
  private:
   const AnswerOptions& options_;
@@ -37,9 +40,8 @@ class PictureMaker {
   const PictureProgress::Report report_;
 };
 
-void PictureMaker::write(const std::string& name, const V3d& point,
+void PictureMaker::write(PictureFile& file, const std::string& name, const V3d& point,
                          const std::function<void()>& checkStop) const {
-  PictureFile file(name);
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
                                                               : Projection::latitudeLongitude);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
@@ -129,10 +131,14 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                             : std::make_shared<const PictureMaker>(transport, options, pictureReport);
   return [&, workers, pictures](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
+    // Opened first, because a file that cannot be written is known before an answer that takes a minute.
+    std::string name;
+    std::optional<PictureFile> picture;
+    if (pictures) picture.emplace(name = pictureName(options.picture, record.index));
     const PointAnswer answer = workers->answer(point, worker);
     summary.add(record.index, answer, options.ray.sampling);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
-    if (pictures) pictures->write(pictureName(options.picture, record.index), point, workspace.checkStop);
+    if (pictures) pictures->write(*picture, name, point, workspace.checkStop);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes,
