@@ -29,8 +29,8 @@ def need_rsphere():
     sys.path.append(os.path.join(HERE, "../../build/python"))
     try:
         import rsphere
-    except ImportError:
+    except ImportError as error:
         other_python()
-        sys.exit(f"{os.path.basename(sys.argv[0])}: the module rsphere is missing; `.ci/packages python` and the build of "
-                 "examples/python/README.md make it")
+        sys.exit(f"{os.path.basename(sys.argv[0])}: the module rsphere cannot be loaded ({error}); `.ci/packages python` and the "
+                 "build of examples/python/README.md make it")
     return rsphere

@@ -252,8 +252,8 @@ class Steps:
     def verdict(self):
         if not any(f for *_, f in self.rows):
             return "Not checked."
-        largest = [(f"of {kind} {max(d):.2f}" if kind else f"{max(d):.1%}") for kind in AGREE for d in [self.differences(kind)] if d]
-        text = (f"Planned and found {'agree' if self.agree() else 'DO NOT agree'} within {TOLERANCE:.0%}: the largest deviation is "
+        largest = [(f"{max(d):.2f} ({kind})" if kind else f"{max(d):.1%}") for kind in AGREE for d in [self.differences(kind)] if d]
+        text = (f"Planned and found {'agree' if self.agree() else 'DO NOT agree'} within {TOLERANCE:.0%}: the largest deviations are "
                 f"{', '.join(largest)}.")
         missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
         if missed or self.layout.misses:
