@@ -319,7 +319,7 @@ void Trade::measureAll(std::span<const std::vector<std::string>> words, std::spa
 // Reports the measurements. Throws rad::Error (Status::signal) if a signal ended them.
 void Trade::conclude(Measured measured, double accuracy) const {
   if (!measured.referenceIsDone)
-    messages_.warning(fmt::format("no setting has been measured yet: the reference had {} rotations",
+    messages_.warning(fmt::format("no setting has been measured yet; rotations of the reference so far: {}",
                                   measured.reference ? measured.reference->repeats() : 0));
   size_t repeatsOfLast = measured.last.answers.repeats();
   if (repeatsOfLast >= kLeastRepeats)
