@@ -12,8 +12,9 @@ TEST(Manual, IsTheGeneratedOne) {
   const size_t at = text.find(mark);
   ASSERT_NE(at, std::string::npos);
   text.replace(at, mark.size(), manualText());
+  if (contents(folder + "rsphere.1") == text) return;
   std::ofstream("rsphere.1", std::ios::binary) << text;
-  EXPECT_TRUE(contents(folder + "rsphere.1") == text) << "differs from rsphere.1 in the folder of this test";
+  FAIL() << "differs from rsphere.1 in the folder of this test";
 }
 
 // The text must contain nothing that man(7) takes for a macro.
