@@ -958,7 +958,8 @@ void addWeightOptions(const Add& add) {
            "openings carry the light of sun, sky and ground; points outdoors are excepted. There are no "
            "glances in other scenes with distant light sources, in mist, and where all lamps are of kinds "
            "that light paths do not start from (concave polygons, glow with a radius, spotlights that are "
-           "not flat). "
+           "not flat). Unless there are goals (-Sg), there are none either where a glow shines that only "
+           "rays find, or where most of the area is of surfaces that are left to the directions. "
            "With h and v, light sources are treated like other surfaces.",
        .line = weightsLine});
 }

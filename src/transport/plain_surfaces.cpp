@@ -133,6 +133,13 @@ void PlainSurfaces::findSurfaces() {
     const bool isAimedAt =
         !shines || prepared_.lights().of(i) != kNone || isBlack(sourceRadiance(scene_, surface));
     coverage_.all = coverage_.all && known && isAimedAt;
+    if (!known && i.index() < scene_.outermostIds().size())
+      coverage_.unknownArea += areaOf(surface.shape, scene_.vertices);
+    const auto* const glow = material ? std::get_if<Glow>(material) : nullptr;
+    const double reach = glow ? glow->reach : 0;
+    if (reach >= 0 && (reach > 0 || prepared_.lights().of(i) == kNone) &&
+        !isBlack(sourceRadiance(scene_, surface)))
+      coverage_.glows = true;
     if (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)))
       coverage_.passUnknown = true;
   }
@@ -150,6 +157,11 @@ const char* PlainSurfaces::obstacle() const {
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!coverage_.anySource) return "no known sources";
+  // Glances make light that only rays find noisier. Measured: in three rooms with a lamp and a glow, 2 to 2.7
+  // times the error in 6 to 10 times the time. Where most surfaces are not known, they find too little to be
+  // worth their time. Measured: in a room with textured walls, the same error in 2 to 3 times the time.
+  if (!scene_.importance && coverage_.glows) return "surfaces that only rays find";
+  if (!scene_.importance && coverage_.unknownArea > scene_.area() / 2) return "surfaces that are not known";
   return hasMist(scene_) ? "mist" : nullptr;
 }
 

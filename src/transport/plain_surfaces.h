@@ -60,6 +60,9 @@ class PlainSurfaces {
     bool allSources = true;  // all sources are known
     bool all = true;         // all light: all surfaces and sources are known
     bool allDirect = true;   // all direct light of known surfaces
+    // A surface sends light that only rays find: it is not, or not everywhere, sampled as a source.
+    bool glows = false;
+    double unknownArea = 0;  // of the surfaces that are not known, one side of each (square world units)
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
   };

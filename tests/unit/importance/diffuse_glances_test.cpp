@@ -261,6 +261,14 @@ TEST(PlainSurfaces, NameWhatTheyDoNotKnow) {
   };
   EXPECT_EQ(obstacle(""), "none");
   EXPECT_EQ(obstacle("void light black 0 0 3 0 0 0\nblack sphere q 0 0 4 1 1 1 .1\n"), "none");
+  const std::string paper = "void trans paper 0 0 7 .8 .8 .8 0 0 .3 0\npaper ";
+  EXPECT_EQ(obstacle(paper + "sphere q 0 0 4 1 1 1 .1\n"), "none");
+  EXPECT_EQ(obstacle(paper + "polygon q 0 0 12 -99 -99 -1 99 -99 -1 99 99 -1 -99 99 -1\n"),
+            "surfaces that are not known");
+  // With a glow that lights surfaces, errors were 2 to 2.7 times as large.
+  for (const char* reach : {"0", "2", "-1"})
+    EXPECT_EQ(obstacle(std::string("void glow g 0 0 4 1 1 1 ") + reach + "\ng sphere q 0 0 4 0 0 0 2\n"),
+              *reach == '-' ? "none" : "surfaces that only rays find");
   EXPECT_EQ(obstacle("lamp source sun 0 0 4 0 0 1 .5\n"), "distant sources");
   EXPECT_EQ(obstacle("void mist fog 0 0 3 .1 .1 .1\nfog sphere q 0 0 4 1 1 1 .1\n"), "mist");
 }
