@@ -15,7 +15,8 @@ void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
 }
 
 void scale(std::vector<CellInTarget>& cells, double total) {
-  double inside = 0, outside = 0, countOutside = 0;
+  double inside = 0, outside = 0;
+  size_t countOutside = 0;
   for (const CellInTarget& cell : cells) {
     if (!cell.enters) continue;
     (cell.fitted == 0 ? outside : inside) += cell.solidAngle;

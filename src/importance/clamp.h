@@ -7,10 +7,10 @@
 
 namespace rsphere {
 
-// Clamps the brightness that each sample adds to its guess (the control variate) to `share` times an integral
+// Clamps the brightness that each sample adds to the light found by glances to `share` times an integral
 // over all directions. That integral is itself clamped, by `share` times the whole integral: otherwise one
-// very bright direction would raise its own limit. Colors stay the same, and so do contributions below the
-// guess. Returns the loss of the integral, which is a bias (W/m2).
+// very bright direction would raise its own limit. Colors stay the same, and so does light found by glances.
+// Returns the loss of the integral, which is a bias (W/m2).
 //
 // total: the whole integral, including light that is not among the samples (W/m2).
 //

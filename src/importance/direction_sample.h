@@ -17,7 +17,7 @@ struct DirectionSample {
   double solidAngle = 0;   // solid angle that it represents, sr
   Radiance value{};        // radiance from the direction, W/sr/m2
   bool toSource = false;   // whether it was sent to a light source that is integrated separately
-  Radiance guess{};        // the part of the value that glances integrate (control variate); 0: none
+  Radiance glanced{};      // the part of the value that a glance along it has found; 0 without -Sd
   RegionId region = 0;
 };
 

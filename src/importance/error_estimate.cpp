@@ -10,7 +10,7 @@ namespace rsphere {
 namespace {
 
 // The part of a direction's radiance that glances do not estimate.
-Radiance unguessed(const DirectionSample& s) { return s.value - s.guess; }
+Radiance followed(const DirectionSample& s) { return s.value - s.glanced; }
 
 // Each value minus the mean of the values around it.
 struct Differences {
@@ -69,7 +69,7 @@ double ownPartOfSecond(double m) {
 // for uniformly distributed values; 1.8 k if only k of n directions hit something small and bright.
 double sharing(std::span<const DirectionSample> samples, const SpectralSampling* sampling) {
   const auto partOf = [&](const DirectionSample& s) {
-    return photopicOf(irradianceFrom(unguessed(s), s.solidAngle).color, sampling);
+    return photopicOf(irradianceFrom(followed(s), s.solidAngle).color, sampling);
   };
   const double n = static_cast<double>(samples.size());
   double mean = 0, second = 0, fourth = 0;
@@ -132,7 +132,7 @@ void ZoneVariances::add(const ZoneVariances& other, double factor) {
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
                       const SpectralSampling* sampling, ZoneVariances* to) {
   std::vector<Radiance> values(samples.size());
-  std::ranges::transform(samples, values.begin(), unguessed);
+  std::ranges::transform(samples, values.begin(), followed);
   const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
   Variance sum;
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -154,7 +154,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   Irradiance sum;
   Variance squares;
   for (const DirectionSample& s : samples) {
-    const Irradiance part = irradianceFrom(unguessed(s), s.solidAngle);
+    const Irradiance part = irradianceFrom(followed(s), s.solidAngle);
     sum += part;
     squares += Variance::of(part, sampling);
   }
@@ -170,7 +170,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   for (const DirectionSample& s : samples)
     if (to)
       to->add(s.direction, s.solidAngle,
-              Variance::of(irradianceFrom(unguessed(s), s.solidAngle) - sum / n, sampling) *
+              Variance::of(irradianceFrom(followed(s), s.solidAngle) - sum / n, sampling) *
                   (n / (n - 1) * even));
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
@@ -182,13 +182,13 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
   int count = 0;
   for (const DirectionSample& s : base) {
     if (s.region != sample.region) continue;
-    sum += unguessed(s);
+    sum += followed(s);
     ++count;
   }
   const double own = count == 0 ? 1 : static_cast<double>(count) / (count + 1);
   const Radiance around = count == 0 ? Radiance() : sum / count;
   const Variance variance =
-      Variance::of(irradianceFrom(unguessed(sample) - around, sample.solidAngle), sampling) * own;
+      Variance::of(irradianceFrom(followed(sample) - around, sample.solidAngle), sampling) * own;
   if (to) to->add(sample.direction, sample.solidAngle, variance);
   return variance;
 }

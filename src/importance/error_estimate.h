@@ -1,7 +1,7 @@
 #pragma once
-// Estimates the variance of a mean from the samples of one set of directions. Guesses are subtracted from the
-// radiances, because glances estimate them. Parameters of all functions: sampling is RayOptions::sampling;
-// the variance of each zone is added to `to`, which is null without zones.
+// Estimates the variance of a mean from the samples of one set of directions, without the light that glances
+// have found, whose variance is estimated with it. Parameters of all functions: sampling is
+// RayOptions::sampling; the variance of each zone is added to `to`, which is null without zones.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -91,7 +91,7 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
 // Variance due to occluders that no direction has hit, in regions other than 0. In each region, an occluder
 // is assumed that hides half of the solid angle that one more direction would represent. Otherwise the stated
 // error of an opening's light would be 0 whenever all of the few directions sent to it see the same sky. The
-// assumed occluder also hides the guessed light.
+// assumed occluder also hides light that was found by glances.
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 

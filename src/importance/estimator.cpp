@@ -17,28 +17,28 @@
 namespace rsphere {
 namespace {
 
-// Adds `excess` to the integral over the samples: in proportion to their guesses, or evenly if all guesses
-// are 0.
+// Adds `excess` to the integral over the samples: in proportion to what glances along them have found, or
+// evenly if that is nothing.
 void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
-  Irradiance guessed;
+  Irradiance glanced;
   double solidAngle = 0;
   for (const DirectionSample& s : samples) {
-    guessed += irradianceFrom(s.guess, s.solidAngle);
+    glanced += irradianceFrom(s.glanced, s.solidAngle);
     solidAngle += s.solidAngle;
   }
-  // The factor for one channel or band. all: integral of the guesses; more: their excess.
+  // The factor for one channel or band. all: integral of what glances have found; more: the excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
   };
   const Color scale =
-      combined(excess.color, guessed.color, [&](double e, double g) { return scaleOf(g, e); });
+      combined(excess.color, glanced.color, [&](double e, double g) { return scaleOf(g, e); });
   const Color shift =
-      combined(excess.color, guessed.color, [&](double e, double g) { return shiftOf(g, e); });
-  for (DirectionSample& s : samples) s.value.color += scale * s.guess.color + shift;
+      combined(excess.color, glanced.color, [&](double e, double g) { return shiftOf(g, e); });
+  for (DirectionSample& s : samples) s.value.color += scale * s.glanced.color + shift;
 }
 
-// Sets radiances to 0 that subtracting guesses has made negative, and reduces the others so that the integral
+// Sets radiances to 0 that a negative excess has made negative, and reduces the others so that the integral
 // stays the same.
 void keepPositive(std::vector<DirectionSample>& samples) {
   Color sum, positive;

@@ -46,9 +46,9 @@ class SphereEstimator {
     std::function<void()> checkStop;
     // The directions of the last point. With -Sa they are kept only if every direction is requested (-Sd),
     // because there may be a million. With -Sd, their radiances times solid angles sum to the integral of the
-    // answer: the correction of the control variate (the integral of guesses by glances, minus that by
-    // directions) is distributed among the radiances in proportion to their guesses. No radiance is negative
-    // unless the answer is.
+    // answer: light that all glances have found, minus what those along the directions have found, is
+    // distributed among the radiances in proportion to the latter. No radiance is negative unless the answer
+    // is.
     std::vector<DirectionSample> samples;
     std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
 

@@ -84,7 +84,7 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
 
   SampledSet sampled = joined(toImages, others, options_.everyDirection);
   const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
-  sampled.excess = beyondGuesses(view, others.samples);
+  sampled.excess = glancedBeside(view, others.samples);
   sampled.shared = std::move(view.glanced.shared);
   sampled.sharedByZone = std::move(view.glanced.sharedByZone);
   sampled.ofZones = std::move(view.glanced.ofZones);
@@ -178,8 +178,8 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     if (enters) {
       // Glances find all light of plain diffuse surfaces. With -Sd, one along each direction estimates it.
       if (glances_ && options_.everyDirection)
-        sample.guess = glances_->along(set, direction, i + 1, paths.tracer());
-      sample.value = ray.value + sample.guess;
+        sample.glanced = glances_->along(set, direction, i + 1, paths.tracer());
+      sample.value = ray.value + sample.glanced;
     }
     sampled.samples.push_back(sample);
     if (options_.everyDirection) sampled.rays.push_back(ray);
@@ -189,10 +189,11 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
   return sampled;
 }
 
-Moments SilhouetteWeights::beyondGuesses(const View& view, std::span<const DirectionSample> others) const {
+Moments SilhouetteWeights::glancedBeside(const View& view, std::span<const DirectionSample> others) const {
   Moments moments = view.glanced.moments;
+  if (!options_.everyDirection) return moments;
   for (const DirectionSample& s : others)
-    moments.add(s.direction, irradianceFrom(s.guess, -s.solidAngle), base_.sampling, s.solidAngle);
+    moments.add(s.direction, irradianceFrom(s.glanced, -s.solidAngle), base_.sampling, s.solidAngle);
   return moments;
 }
 

@@ -63,12 +63,11 @@ class SilhouetteWeights : public SamplingStrategy {
   void chooseDirections(const SetAtPoint& set, Plan& plan) const;
 
   // Stage 3: traces and weights the directions of the plan. Directions that show a separately sampled image
-  // of a light source are in kNoRegion, with solid angle, radiance and guess 0.
+  // of a light source are in kNoRegion, with solid angle and radiance 0.
   SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
 
-  // Stage 4: the correction of the control variate: light found by glances, minus the guesses of the
-  // directions.
-  Moments beyondGuesses(const View& view, std::span<const DirectionSample> others) const;
+  // Stage 4: light found by glances, minus what those along the directions have found (-Sd).
+  Moments glancedBeside(const View& view, std::span<const DirectionSample> others) const;
 
   // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,

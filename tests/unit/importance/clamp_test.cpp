@@ -47,7 +47,7 @@ TEST(Clamp, KeepsTheColor) {
 
 TEST(Clamp, LeavesWhatWasGuessed) {
   std::vector<DirectionSample> samples = withOutlier();
-  samples[7].guess = Radiance(450);
+  samples[7].glanced = Radiance(450);
   EXPECT_EQ(clampContributions(samples, totalOf(samples), .02, nullptr).color.y, 0);
   EXPECT_EQ(samples[7].value.color.y, 450.5);
   // Without the guess it would be clamped: LimitsTheOutlierAlone.
