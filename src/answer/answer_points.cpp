@@ -29,9 +29,7 @@ class PictureMaker {
         sources_(transport_.prepared()),
         report_(report) {}
 
-  // file: for the picture `name`.
-  void write(PictureFile& file, const std::string& name, const V3d& point,
-             const std::function<void()>& checkStop) const;
+  void write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const;
 
  private:
   const AnswerOptions& options_;
@@ -40,13 +38,12 @@ class PictureMaker {
   const PictureProgress::Report report_;
 };
 
-void PictureMaker::write(PictureFile& file, const std::string& name, const V3d& point,
-                         const std::function<void()>& checkStop) const {
+void PictureMaker::write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const {
   const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
                                                               : Projection::latitudeLongitude);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options_.ray));
-  PictureProgress progress(name, report_,
+  PictureProgress progress(file.name(), report_,
                            options_.progressSeconds > 0 ? options_.progressSeconds : kReportSeconds);
   const auto onward = [&](double done) {
     if (checkStop) checkStop();
@@ -132,13 +129,12 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
   return [&, workers, pictures](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     // Opened first, because a file that cannot be written is known before an answer that takes a minute.
-    std::string name;
     std::optional<PictureFile> picture;
-    if (pictures) picture.emplace(name = pictureName(options.picture, record.index));
+    if (pictures) picture.emplace(pictureName(options.picture, record.index));
     const PointAnswer answer = workers->answer(point, worker);
     summary.add(record.index, answer, options.ray.sampling);
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
-    if (pictures) pictures->write(*picture, name, point, workspace.checkStop);
+    if (pictures) pictures->write(*picture, point, workspace.checkStop);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes,

@@ -30,6 +30,7 @@ class PictureFile {
   PictureFile(const PictureFile&) = delete;
   PictureFile& operator=(const PictureFile&) = delete;
 
+  const std::string& name() const { return name_; }
   PictureFormat format() const { return format_; }
 
   // REQUIRES that it was not called before. header: for PictureFormat::radiance, the lines before FORMAT with

@@ -162,6 +162,7 @@ void DirectLight::rankByBrightness(uint32_t count) {
     });
     return;
   }
+  // All pairs are compared, without branches; std::sort would mispredict half of its branches.
   std::array<int64_t, kFew> before;
   const double* const all = scratch_.brightness.data();
   for (uint32_t i = 0; i < count; ++i) {

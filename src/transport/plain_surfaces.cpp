@@ -123,26 +123,27 @@ bool PlainSurfaces::isKnown(LightId source) const {
 }
 
 void PlainSurfaces::findSurfaces() {
+  double unknownArea = 0;
   for (const SurfaceId i : scene_.surfaces.ids()) {
     const Surface surface = scene_.surfaces[i];
     if (surface.finish.sensor) continue;
     const Material* const material = scene_.materialAt(surface.material);
     const bool lamp = holds<Light>(material) || holds<Spotlight>(material);
     const bool known = lamp || knows(i);
-    const bool shines = scene_.importance ? surface.goal : lamp;
-    const bool isAimedAt =
-        !shines || prepared_.lights().of(i) != kNone || isBlack(sourceRadiance(scene_, surface));
-    coverage_.all = coverage_.all && known && isAimedAt;
-    if (!known && i.index() < scene_.outermostIds().size())
-      coverage_.unknownArea += areaOf(surface.shape, scene_.vertices);
-    const auto* const glow = material ? std::get_if<Glow>(material) : nullptr;
+    const bool mayShine = scene_.importance ? surface.goal : lamp;
+    const bool isSource = prepared_.lights().of(i) != kNone;
+    const bool isDark = isBlack(sourceRadiance(scene_, surface));
+    coverage_.all = coverage_.all && known && (!mayShine || isSource || isDark);
+    // A glow with a positive reach is a source only up to there; with a negative one it lights nothing.
+    const auto* const glow = std::get_if<Glow>(material);
     const double reach = glow ? glow->reach : 0;
-    if (reach >= 0 && (reach > 0 || prepared_.lights().of(i) == kNone) &&
-        !isBlack(sourceRadiance(scene_, surface)))
-      coverage_.glows = true;
+    coverage_.glows = coverage_.glows || (!isDark && (reach > 0 || (reach == 0 && !isSource)));
+    if (!known && i.index() < scene_.outermostIds().size())
+      unknownArea += areaOf(surface.shape, scene_.vertices);
     if (!known && !(tracer_.stopsShadows(i, true) && tracer_.stopsShadows(i, false)))
       coverage_.passUnknown = true;
   }
+  coverage_.mostlyUnknown = unknownArea > 0 && unknownArea > scene_.area() / 2;
   if (!portals_.empty()) coverage_.all = false;  // some light may come past them
   if (!portals_.empty() && coverage_.anySource) coverage_.passUnknown = true;
   coverage_.allDirect = coverage_.allSources && !coverage_.passUnknown;
@@ -161,7 +162,7 @@ const char* PlainSurfaces::obstacle() const {
   // times the error in 6 to 10 times the time. Where most surfaces are not known, they find too little to be
   // worth their time. Measured: in a room with textured walls, the same error in 2 to 3 times the time.
   if (!scene_.importance && coverage_.glows) return "surfaces that only rays find";
-  if (!scene_.importance && coverage_.unknownArea > scene_.area() / 2) return "surfaces that are not known";
+  if (!scene_.importance && coverage_.mostlyUnknown) return "surfaces that are not known";
   return hasMist(scene_) ? "mist" : nullptr;
 }
 

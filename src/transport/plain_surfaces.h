@@ -62,7 +62,9 @@ class PlainSurfaces {
     bool allDirect = true;   // all direct light of known surfaces
     // A surface sends light that only rays find: it is not, or not everywhere, sampled as a source.
     bool glows = false;
-    double unknownArea = 0;  // of the surfaces that are not known, one side of each (square world units)
+    // More than half of the area is of surfaces that are not known (one side of each, without instances and
+    // meshes).
+    bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
   };
