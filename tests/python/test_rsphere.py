@@ -423,7 +423,7 @@ class Threads(unittest.TestCase):
         timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            scene.sphere(POINTS[:1], Sn=20000, Sx=40000, ab=2)
+            scene.sphere(POINTS[:1], Sn=40000, Sx=80000, ab=2)
             self.fail("the call took too little time")
         timer.join()
 
