@@ -4,6 +4,8 @@ import re
 import sys
 import warnings
 
+from progress import PROGRESS
+
 
 class Fault(Exception):
     """A fault in the input: one line that begins with the file and the line."""
@@ -56,14 +58,22 @@ def lines_of(file, encoding="latin-1", errors="strict"):
 def run_program(main):
     """Runs main(), and prints a fault as one line. Warnings of the module rsphere are one line, too."""
     name = sys.argv[0].rsplit("/", 1)[-1]
-    warnings.showwarning = lambda message, *_: print(f"{name}: warning - {message}", file=sys.stderr)
+
+    def show_warning(message, *_):
+        PROGRESS.clear()
+        print(f"{name}: warning - {message}", file=sys.stderr)
+
+    warnings.showwarning = show_warning
     sys.stdout.reconfigure(errors="replace")  # names in the room may be bytes of another encoding
     try:
         return main()
     except Fault as text:
         sys.exit(f"{name}: {text}")
     except KeyboardInterrupt:
+        PROGRESS.clear()
         print(f"{name}: interrupted", file=sys.stderr)
         sys.exit(3)
     except BrokenPipeError:
         sys.exit(1)
+    finally:
+        PROGRESS.clear()

@@ -4,6 +4,7 @@ Each value is the mean of repeats with other random numbers; its standard error 
 """
 import numpy as np
 
+from progress import PROGRESS
 from wanted import Answer, cell_means, receiver_of, uniformity
 
 REPEATS = 6
@@ -22,14 +23,17 @@ class Forward:
         """The illuminance of each point of a receiver: (repeats, points)."""
         receiver = self.t.receivers[i]
         found = []
+        PROGRESS.begin(f"Light traced forward to {len(receiver.points)} points of {receiver.name}", self.repeats)
         for repeat in range(1, self.repeats + 1):
             if receiver.kind == "cylinder":
                 a = self.scene.sphere(receiver.points, ambient_bounces=self.t.bounces, outputs="C", rotation=repeat)
                 found.append(self.lux(a.cylindrical_irradiance))
-                continue
-            options = dict(self.options, rotation=repeat)
-            rays = np.hstack([receiver.points, receiver.normals])
-            found.append(self.lux(self.scene.trace(rays, irradiance_at_origin=True, **options).value))
+            else:
+                options = dict(self.options, rotation=repeat)
+                rays = np.hstack([receiver.points, receiver.normals])
+                found.append(self.lux(self.scene.trace(rays, irradiance_at_origin=True, **options).value))
+            PROGRESS.advance()
+        PROGRESS.clear()
         return np.array(found)
 
     def answers(self, goals, lit):
@@ -55,7 +59,9 @@ class Forward:
     def glare(self, goal):
         """UGR by rsphere -Su, of luminaires alone (CIE 117): no other surface is as bright as BEYOND."""
         eye = self.t.design.eyes[goal.target]
+        PROGRESS.begin(f"Glare at {goal.target}")
         a = self.scene.glare([eye.position], [eye.gaze], ambient_bounces=self.t.bounces, Sub=BEYOND)
+        PROGRESS.clear()
         return Answer(goal, float(a.ugr[0]), float(a.ugr_standard_error[0]))
 
 

@@ -13,6 +13,7 @@ from design import read_design
 from fault import Fault, fault
 from forward import Forward, daylight_of
 from page import Page, drawing, table
+from progress import PROGRESS
 from room import program, read_polygons
 from search import search
 from transfer import Transfer
@@ -51,6 +52,7 @@ class Steps:
     def timed(self, name, function):
         begin = time.monotonic()
         value = function()
+        PROGRESS.clear()
         self.seconds[name] = self.seconds.get(name, 0.0) + time.monotonic() - begin
         return value
 
@@ -141,6 +143,7 @@ class Steps:
         return found
 
     def searched(self, factors, seconds):
+        PROGRESS.begin("Search", seconds=seconds)
         scenes = [rows_of(self.transfer, s.goals, self.light, day, self.lit, f)
                   for s, day, f in zip(self.design.all_scenes(), self.daylight, factors)]
         return search(self.design, self.candidates, self.watts, scenes, seconds, self.given.gap)
@@ -270,6 +273,7 @@ class Steps:
         height = self.given.height
         if height is None:
             height = statistics.median(heights) - floor.corners[0, 2] if heights and not self.given.plan else 0.75 * d.units
+        PROGRESS.begin("Plan in false colors")
         path = os.path.join(self.given.output, f"plan_{scene.name or 'all'}.svg")
         size = np.ptp(floor.corners[:, :2], axis=0).max() if floor else 10 * d.units
         outlines = list(dict.fromkeys(p.name for surface in d.surfaces.values() for p in surface.polygons))[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"

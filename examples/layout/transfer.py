@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from progress import PROGRESS
 from room import LIFT, goal_text, has_mirrors
 from surface_parts import GOLDEN as GOLDEN_STEP
 from surface_parts import PART, surface_parts
@@ -270,10 +271,11 @@ class Transfer:
         whose = np.repeat(np.arange(len(candidates)), [len(p) for p in spread])
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
         values = np.zeros((SETS, self.goal_count(), len(candidates)))
-        for group in self.groups:
+        steps = [max(1, MOST_VALUES // (len(group.areas) * zones.count)) for group in self.groups]
+        PROGRESS.begin(f"Importance at {len(places)} places", SETS * sum(-(-len(places) // step) for step in steps))
+        for group, step in zip(self.groups, steps):
             beside = self.beside(group.points, places, zones) if group.points else None
             count = len(group.areas)
-            step = max(1, MOST_VALUES // (count * zones.count))
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))  # parts
                 for k in range(SETS):
@@ -291,6 +293,8 @@ class Transfer:
                         if group.points:
                             w = w + mirrored[at] * beside[:, begin + at]
                         values[k, group.first : group.first + count, whose[part]] += w @ light[part] * area
+                    PROGRESS.advance()
+        PROGRESS.clear()
         return values
 
 

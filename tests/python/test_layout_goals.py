@@ -3,6 +3,7 @@
 PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the module rsphere.
 """
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -50,7 +51,7 @@ FAULTS = (
 
 
 class Goals(unittest.TestCase):
-    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8"):
+    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8", stderr=subprocess.PIPE):
         """furniture: scene text besides the office."""
         with tempfile.TemporaryDirectory() as folder:
             file, more = os.path.join(folder, "goals.txt"), os.path.join(folder, "more.rad")
@@ -59,13 +60,26 @@ class Goals(unittest.TestCase):
                     stream.write(text)
             command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, *([more] if furniture else []),
                        "-o", os.path.join(folder, "out"), "--no-plan", *options]
-            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            run = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False)
             return run, file
 
     def test_good(self):
         run, _ = self.run_on(GOOD)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertRegex(run.stdout, r"illuminance  desk1 +50 lx +[0-9]+ lx")
+
+    def test_progress_on_a_terminal(self):
+        """A matrix and a check of minutes did not say how far they were."""
+        mine, its = pty.openpty()
+        run, _ = self.run_on(GOOD, ("-c", "8", "-d", "64", "-b", "0"), stderr=its)
+        self.assertEqual(run.returncode, 0)
+        os.close(its)
+        shown = os.read(mine, 65536).decode()
+        os.close(mine)
+        self.assertRegex(shown, "\\r\033\\[KImportance at [0-9]+ places: 1 of 4\\r")
+        self.assertRegex(shown, "\\r\033\\[KSearch, at most [0-9]+ s\\r")
+        self.assertRegex(shown, "\\r\033\\[KLight traced forward to [0-9]+ points of desk1: 6 of 6")
+        self.assertTrue(shown.endswith("\r\033[K"), shown)
 
     def test_files_of_other_systems(self):
         """The mark of UTF-8 and Ctrl-Z were words, and names beyond ASCII never matched or ended with a traceback."""
