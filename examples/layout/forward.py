@@ -17,6 +17,7 @@ class Forward:
         self.t, self.scene, self.repeats = transfer, scene, repeats
         # One reflection more than importance: there, the first surface is not yet a reflection.
         self.options = dict(ambient_bounces=transfer.bounces + 1, aa=0, ad=divisions, dj=1, dt=0, ds=0.05, lw=0.64 / max(divisions, 1))
+        self.directions = min(16 * divisions, 2048)  # of spheres
         self.lux = transfer.rsphere.photometric
 
     def points(self, i):
@@ -26,7 +27,7 @@ class Forward:
         PROGRESS.begin(f"Light traced forward to {len(receiver.points)} points of {receiver.name}", self.repeats)
         for repeat in range(1, self.repeats + 1):
             if receiver.kind == "cylinder":
-                a = self.scene.sphere(receiver.points, ambient_bounces=self.t.bounces, outputs="C", rotation=repeat)
+                a = self.scene.sphere(receiver.points, ambient_bounces=self.t.bounces, outputs="C", rotation=repeat, directions=self.directions)
                 found.append(self.lux(a.cylindrical_irradiance))
             else:
                 options = dict(self.options, rotation=repeat)

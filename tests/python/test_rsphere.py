@@ -384,12 +384,12 @@ class Threads(unittest.TestCase):
         """While one thread computes, others count and compute: the lock of the interpreter is released."""
         scene = rsphere.Scene(ROOM)
         points = np.tile(POINTS, (40, 1))
-        wanted = scene.sphere(points[:3], ab=1, threads=1).mean
+        wanted = scene.sphere(points[:3], ab=1, threads=1, directions=256).mean
         done = threading.Event()
         found = {}
 
         def compute(name, count):
-            found[name] = scene.sphere(points[:count], ab=1, threads=1).mean
+            found[name] = scene.sphere(points[:count], ab=1, threads=1, directions=256).mean
             if name == "long":
                 done.set()
 
@@ -423,7 +423,7 @@ class Threads(unittest.TestCase):
         timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            scene.sphere(POINTS[:1], Sn=40000, Sx=80000, ab=2)
+            scene.sphere(POINTS[:1], Sn=15000, Sx=30000, ab=2)
             self.fail("the call took too little time")
         timer.join()
 

@@ -309,7 +309,7 @@ TEST(GlareEstimator, LuminanceThatOneSetSeesHasItsOwnError) {
 // 3.2%. With other eyes, too, it is .91 (UGR, background) to 1.04 (illuminance): the lower bound is four
 // standard errors away.
 TEST(GlareEstimator, StatesItsErrors) {
-  constexpr int kEyes = 40, kRepeats = 8;
+  constexpr int kEyes = 24, kRepeats = 8;
   const SphereSetting setting = roomWithLamp();
   SphereOptions options = setting.options.sphere;
   options.baseDirections = 48;
