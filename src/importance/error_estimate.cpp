@@ -5,6 +5,7 @@
 #include <map>
 
 #include "importance/tuning.h"
+#include "scene/even_sequence.h"
 
 namespace rsphere {
 namespace {
@@ -63,6 +64,27 @@ Differences differences(std::span<const Radiance> values, std::span<const Direct
 double ownPartOfSecond(double m) {
   constexpr double kFarther = .023;
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
+}
+
+// The neighbours of the first `count` points of evenly() in the unit square. Points at its opposite sides are
+// not neighbours.
+Neighbours latticeNeighbours(size_t count, const Imath::V2d& shift) {
+  constexpr size_t kSteps = 3;  // of the six around a point, those that are not opposite to each other
+  std::vector<std::vector<uint32_t>> around(count);
+  for (const EvenStep& s : shortestSteps(count, kSteps))
+    for (size_t i = 0; i + s.ahead < count; ++i) {
+      const Imath::V2d there = evenly(i, shift.x, shift.y) + s.step;
+      if (there.x < 0 || there.x >= 1 || there.y < 0 || there.y >= 1) continue;
+      around[i].push_back(static_cast<uint32_t>(i + s.ahead));
+      around[i + s.ahead].push_back(static_cast<uint32_t>(i));
+    }
+  Neighbours n;
+  for (const auto& near : around) {
+    n.first.push_back(static_cast<uint32_t>(n.neighbour.size()));
+    n.neighbour.insert(n.neighbour.end(), near.begin(), near.end());
+  }
+  n.first.push_back(static_cast<uint32_t>(n.neighbour.size()));
+  return n;
 }
 
 // The effective number of directions that cause the variance, from the fourth moment of their brightness: n
@@ -138,10 +160,28 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
   for (size_t i = 0; i < samples.size(); ++i) {
     const double m = once.around[i];
     if (m == 0) continue;
-    const bool second = m >= tuning::ErrorEstimate::kFewestAround, apart = samples[i].region != 0;
+    const bool second = m >= tuning::ErrorEstimate::kFewestAround, apart = samples[i].region != 0 && !second;
     const Variance part =
         Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
         ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : tuning::ErrorEstimate::kEvenSet));
+    sum += part;
+    if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
+  }
+  return sum;
+}
+
+Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
+                         const SpectralSampling* sampling, ZoneVariances* to) {
+  std::vector<Radiance> values(samples.size());
+  std::ranges::transform(samples, values.begin(), followed);
+  const Differences once = differences(values, samples, latticeNeighbours(samples.size(), shift));
+  Variance sum;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].region == kNoRegion) continue;
+    const double m = once.around[i];
+    const Radiance& differs = m > 0 ? once.values[i] : values[i];
+    const Variance part = Variance::of(irradianceFrom(differs, samples[i].solidAngle), sampling) *
+                          (m > 0 ? m / (m + 1) * tuning::ErrorEstimate::kEvenSet : 1);
     sum += part;
     if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
   }
@@ -169,9 +209,9 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / tuning::ErrorEstimate::kEvenRun);
   for (const DirectionSample& s : samples)
     if (to)
-      to->add(s.direction, s.solidAngle,
-              Variance::of(irradianceFrom(followed(s), s.solidAngle) - sum / n, sampling) *
-                  (n / (n - 1) * even));
+      to->add(
+          s.direction, s.solidAngle,
+          Variance::of(irradianceFrom(followed(s), s.solidAngle) - sum / n, sampling) * (n / (n - 1) * even));
   squares += Variance::of(sum, sampling) * (-1 / n);
   return squares * (n / (n - 1) * even);
 }

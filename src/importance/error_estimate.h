@@ -2,6 +2,8 @@
 // Estimates the variance of a mean from the samples of one set of directions, without the light that glances
 // have found, whose variance is estimated with it. Parameters of all functions: sampling is
 // RayOptions::sampling; the variance of each zone is added to `to`, which is null without zones.
+#include <Imath/ImathVec.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -70,16 +72,22 @@ struct Neighbours {
 // angle times the second difference of radiance: its difference to the mean of its neighbours, minus the mean
 // of the neighbours' differences. This contains the noise of paths and the error at edges, but not smooth
 // variation, which an even set integrates accurately. An even set also averages out part of the error at
-// edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0 the factor is 1, because a
-// single direction there may find much light, such as a lamp mirrored in a chrome column. Neighbours in the
-// same region are compared if there are any: the edge of a region adds no error, because cells end there.
-// Directions in kNoRegion are left out.
+// edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0, the factor is 1 for
+// directions with few neighbours, because a single one may find much light there, such as a lamp mirrored in
+// a chrome column. Neighbours in the same region are compared if there are any: the edge of a region adds no
+// error, because cells end there. Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
-// The same for dynamic directions to one target. They are spread evenly over a region, but successive ones
-// are not neighbours. The result is the variance of independent directions, reduced for even spreading. There
-// is no reduction where few directions find most of the light, such as that of a lamp that is mirrored twice.
+// The same for dynamic directions to one target, whose places in it are the first points of evenly(). Each is
+// compared with the nearest of them. An edge, such as that of a window in a mirror, then counts only where it
+// passes between neighbours. Slats that are finer than the distance of neighbours count as noise.
+Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
+                         const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+
+// The same for dynamic directions to several targets that show parts of one image of a source. The result is
+// the variance of independent directions, reduced for even spreading. There is no reduction where few
+// directions find most of the light, such as that of a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 

@@ -148,13 +148,16 @@ void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) cons
   for (const Target& target : plan.targets.all()) {
     due += target.expected;
     const double shift1 = random.uniform(), shift2 = random.uniform();
-    if (!target.continues) plan.runs.push_back(plan.directions.size());
+    if (target.continues)
+      plan.runs.back().shift.reset();
+    else
+      plan.runs.push_back({plan.directions.size(), 0, Imath::V2d(shift1, shift2)});
     for (size_t i = 0; due >= 1; --due, ++i) {
       const Imath::V2d u = evenly(i, shift1, shift2);
       plan.directions.push_back(target.silhouette.sample(u.x, u.y));
     }
+    plan.runs.back().end = plan.directions.size();
   }
-  plan.runs.push_back(plan.directions.size());
 }
 
 SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, const Plan& plan,
@@ -197,14 +200,16 @@ Moments SilhouetteWeights::glancedBeside(const View& view, std::span<const Direc
   return moments;
 }
 
-Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
+Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others,
+                                       std::span<const Plan::Run> runs,
                                        std::span<const SeenSources::Sample> toImages,
                                        ZoneVariances* to) const {
   const auto base = others.first(base_.directions.size());
   Variance variance = evenVariance(base, *base_.neighbours, base_.sampling, to);
-  for (size_t i = 1; i < runs.size(); ++i) {
-    const auto run = others.subspan(runs[i - 1], runs[i] - runs[i - 1]);
+  for (const Plan::Run& r : runs) {
+    const auto run = others.subspan(r.first, r.end - r.first);
     variance += run.size() == 1 ? loneVariance(run[0], base, base_.sampling, to)
+                : r.shift       ? latticeVariance(run, *r.shift, base_.sampling, to)
                                 : spreadVariance(run, base_.sampling, to);
   }
   variance += unseenVariance(others, base_.sampling, to);

@@ -55,8 +55,12 @@ class SilhouetteWeights : public SamplingStrategy {
     Targets targets{std::vector<Target>()};
     // The base directions, then one run of directions for each target, or for all parts of one image.
     std::vector<V3d> directions;
-    std::vector<size_t> runs;  // index of the first direction of each run, and one past the last run
-    double solidAngle = 0;     // total of these directions, sr
+    struct Run {
+      size_t first, end = first;          // indices of its directions
+      std::optional<Imath::V2d> shift{};  // of evenly(); empty for several parts of an image
+    };
+    std::vector<Run> runs;
+    double solidAngle = 0;  // total of these directions, sr
   };
   Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
   // Sets directions and runs.
@@ -70,7 +74,7 @@ class SilhouetteWeights : public SamplingStrategy {
   Moments glancedBeside(const View& view, std::span<const DirectionSample> others) const;
 
   // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
-  Variance varianceOf(std::span<const DirectionSample> others, std::span<const size_t> runs,
+  Variance varianceOf(std::span<const DirectionSample> others, std::span<const Plan::Run> runs,
                       std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
 
   const SphereOptions& options_;

@@ -154,10 +154,11 @@ struct ErrorEstimate {
   // .07% with 8192. In daylit rooms means are .1 to .2% too dark, with stated errors of .6 to 1%.
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0006);
   static constexpr double kUsualRays = 1024;
-  // Factor on the variance that is estimated from second differences of base directions: derived. The
-  // right value is .6 if all variance is due to straight edges, because evenly spread directions average out
-  // part of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most
-  // 15% too large and 11% too small.
+  // Factor on the variance that is estimated from differences of evenly spread directions: derived. The right
+  // value is .6 if all variance is due to straight edges, because evenly spread directions average out part
+  // of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most 15% too
+  // large and 11% too small. Where directions to one target see something round that is as large as ten of
+  // their cells, they are up to 35% too large.
   static constexpr double kEvenSet = .8;
   // Smallest number of neighbours for second differences: derived. ownPartOfSecond() does not hold for fewer.
   static constexpr double kFewestAround = 4;
@@ -171,12 +172,12 @@ struct ErrorEstimate {
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
-  // The same factor for n dynamic directions to a target is 1 / (1 + n^1/2 / kEvenRun). The root is derived:
-  // an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by experiment. n is the effective number
-  // of directions that cause the variance. With the number of all directions, errors were understated beside
-  // a chrome ball, where 1 to 5 of 3400 directions find twice mirrored lamps: the actual deviation was 1.6
-  // times the stated one, and 2% of the answers were off by more than six stated errors. Now the ratio is .9,
-  // and no answer is. Insensitive.
+  // The same factor for n dynamic directions to several targets, parts of one image, is 1 / (1 + n^1/2 /
+  // kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by
+  // experiment. n is the effective number of directions that cause the variance. With the number of all
+  // directions, errors were understated beside a chrome ball, where 1 to 5 of 3400 directions find twice
+  // mirrored lamps: the actual deviation was 1.6 times the stated one, and 2% of the answers were off by more
+  // than six stated errors. Now the ratio is .9, and no answer is. Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
   // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "importance/tuning.h"
+#include "scene/even_sequence.h"
 #include "tests/unit/support/statistics.h"
 
 namespace rsphere {
@@ -130,6 +131,91 @@ TEST(ErrorEstimate, WhatFewDirectionsFindIsNotTakenForEven) {
   // is.
   EXPECT_GT(stated.mean(), .7 * found.variance());
   EXPECT_LT(stated.mean(), 1 * found.variance());
+}
+
+// Directions to a target, in whose unit square valueAt() gives what they find; over random shifts of their
+// places.
+struct Stated {
+  double found = 0, stated = 0, spread = 0;  // spread: as if nothing were known of their places
+  void add(size_t directions, int shifts, Random& random,
+           const std::function<double(const Imath::V2d& at)>& valueAt) {
+    Sample sums;
+    for (int i = 0; i < shifts; ++i) {
+      const double u = random.uniform(), v = random.uniform();
+      const Imath::V2d shift(u, v);
+      std::vector<DirectionSample> samples(directions);
+      double sum = 0;
+      for (size_t k = 0; k < directions; ++k) {
+        const double value = valueAt(evenly(k, u, v));
+        samples[k].value = Radiance(value);
+        samples[k].solidAngle = 1;
+        sum += value;
+      }
+      sums.add(sum);
+      stated += latticeVariance(samples, shift, nullptr).brightness / shifts;
+      spread += spreadVariance(samples, nullptr).brightness / shifts;
+    }
+    found += sums.variance();
+  }
+  double overTrue() const { return std::sqrt(stated / found); }
+  double spreadOverTrue() const { return std::sqrt(spread / found); }
+};
+
+TEST(ErrorEstimate, NoiseOfDirectionsToATargetIsStatedWhole) {
+  Random random(1);
+  for (const size_t n : {2, 5, 16, 400}) {
+    Stated noise;
+    noise.add(n, 400, random, [&](const Imath::V2d&) { return random.uniform(); });
+    EXPECT_GT(noise.overTrue(), .8) << n;
+    EXPECT_LT(noise.overTrue(), 1.05) << n;
+    if (n < 400) continue;
+    EXPECT_LT(noise.spreadOverTrue(), .6) << "would not see noise taken for edges";
+  }
+}
+
+// Edges of all slopes, as those of a window in a mirror.
+TEST(ErrorEstimate, EdgesInATargetAreErrorsWhereTheyPassBetweenNeighbours) {
+  Random random(2);
+  for (const size_t n : {64, 500}) {
+    Stated edges;
+    for (int i = 0; i < 40; ++i) {
+      const double angle = 2 * kPi * random.uniform(), x = random.uniform(), y = random.uniform();
+      edges.add(n, 40, random, [&](const Imath::V2d& at) {
+        return (at.x - x) * std::cos(angle) + (at.y - y) * std::sin(angle) > 0 ? 1. : 0;
+      });
+    }
+    EXPECT_GT(edges.overTrue(), .8) << n;
+    EXPECT_LT(edges.overTrue(), 1.5) << n;
+    EXPECT_GT(edges.spreadOverTrue(), 1.6) << "would not see edges taken for noise";
+  }
+}
+
+// Slats that are finer than the distance of neighbours, in front of a window.
+TEST(ErrorEstimate, FineSlatsAreStatedWhole) {
+  Random random(3);
+  Stated slats;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 60 * random.uniform(), y = 40 + 40 * random.uniform();
+    slats.add(500, 40, random, [&](const Imath::V2d& at) {
+      const double row = x * at.x + y * at.y;
+      return row - std::floor(row) > .5 ? 1. : 0;
+    });
+  }
+  EXPECT_GT(slats.overTrue(), .75);
+  EXPECT_LT(slats.overTrue(), 1.25);
+  EXPECT_LT(slats.spreadOverTrue(), .75) << "would not see slats taken for edges";
+}
+
+// Two directions in different regions: neither can be compared, so that all that they find is uncertain.
+TEST(ErrorEstimate, DirectionsThatCannotBeComparedAreUncertain) {
+  std::vector<DirectionSample> samples(2);
+  for (DirectionSample& s : samples) {
+    s.value = Radiance(3);
+    s.solidAngle = 2;
+  }
+  samples[0].region = kNoRegion;
+  samples[1].region = 4;
+  EXPECT_NEAR(latticeVariance(samples, {.5, .5}, nullptr).brightness, 36, 1e-12);
 }
 
 std::vector<DirectionSample> inRegions(std::vector<DirectionSample> samples,

@@ -185,6 +185,37 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
   }
 }
 
+// Slats before a window are finer than the distance of the directions to it, which see sky or a slat by chance.
+TEST(StatedErrors, OfAWindowBehindBlinds) {
+  std::string text = kRoomWithAWindow;
+  for (int i = 0; i < 14; ++i)
+    text += fmt::format("white polygon slat 0 0 12 1 -.12 {0} 2 -.12 {0} 2 -.07 {1} 1 -.07 {1}\n",
+                        1 + .05 * i, 1.05 + .05 * i);
+  const SphereSetting room(sceneOf(text));
+  const V3d points[] = {V3d(1.5, 1, 1.2), V3d(.5, 3, 1.2), V3d(2.5, 4.5, 2), V3d(1, .5, .5)};
+  const auto answers = answersOf(room, points, 256, 40);
+  const Honesty honest = honestyOf(answers, 1), spoiled = honestyOf(answers, .5);
+  EXPECT_GT(honest.trueOverStated, .7);
+  EXPECT_LT(honest.trueOverStated, 1.35);
+  EXPECT_LT(honest.beyondThree, .02);
+  EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
+}
+
+// In a mirror that covers a wall, directions find the edges of a window. Evenly spread ones average these out.
+TEST(StatedErrors, OfAWindowInAMirrorWall) {
+  const SphereSetting room(
+      sceneOf(kRoomWithAWindow + "void metal mirror 0 0 5 .9 .9 .9 1 0\n"
+                                 "mirror polygon m 0 0 12 .02 .5 .1 .02 4.5 .1 .02 4.5 2.5 .02 .5 2.5\n"),
+      [](RayOptions& o) { o.ambientBounces = 1; });
+  const V3d points[] = {V3d(.5, 3, 1.2), V3d(2.5, 4.5, 2), V3d(1, 2, .5)};
+  const auto answers = answersOf(room, points, 256, 40);
+  const Honesty honest = honestyOf(answers, 1);
+  EXPECT_GT(honest.trueOverStated, .8);
+  EXPECT_LT(honest.trueOverStated, 1.25);
+  EXPECT_LT(honest.beyondThree, .02);
+  EXPECT_LT(honestyOf(answers, 1.5).trueOverStated, .8) << "would not see half as much again";
+}
+
 // With -aa above 0 the coarse solution has an error of its own, which all directions share. In rooms with
 // even light it is as large as that of the directions. Outside there is a ball of mist, with which light
 // vertices are not used. expected: by -aa 0, -Sn 4096 and six rotations.
