@@ -156,9 +156,9 @@ struct ErrorEstimate {
   static constexpr double kUsualRays = 1024;
   // Factor on the variance that is estimated from differences of evenly spread directions: derived. The right
   // value is .6 if all variance is due to straight edges, because evenly spread directions average out part
-  // of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most 15% too
-  // large and 11% too small. Where directions to one target see something round that is as large as ten of
-  // their cells, they are up to 35% too large.
+  // of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most 15%
+  // too large and 11% too small. Where directions to one target see something round that is as large as ten
+  // of their cells, they are up to 35% too large.
   static constexpr double kEvenSet = .8;
   // Smallest number of neighbours for second differences: derived. ownPartOfSecond() does not hold for fewer.
   static constexpr double kFewestAround = 4;

@@ -185,7 +185,8 @@ TEST(StatedErrors, OfRoomsWithAWindow) {
   }
 }
 
-// Slats before a window are finer than the distance of the directions to it, which see sky or a slat by chance.
+// Slats before a window are finer than the distance of the directions to it: these see sky or a slat by
+// chance.
 TEST(StatedErrors, OfAWindowBehindBlinds) {
   std::string text = kRoomWithAWindow;
   for (int i = 0; i < 14; ++i)
@@ -201,7 +202,8 @@ TEST(StatedErrors, OfAWindowBehindBlinds) {
   EXPECT_GT(spoiled.trueOverStated, 1.35) << "would not see half the error";
 }
 
-// In a mirror that covers a wall, directions find the edges of a window. Evenly spread ones average these out.
+// In a mirror that covers a wall, directions find the edges of a window. Evenly spread directions average
+// these out.
 TEST(StatedErrors, OfAWindowInAMirrorWall) {
   const SphereSetting room(
       sceneOf(kRoomWithAWindow + "void metal mirror 0 0 5 .9 .9 .9 1 0\n"
