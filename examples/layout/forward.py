@@ -61,7 +61,7 @@ class Forward:
         """UGR by rsphere -Su, of luminaires alone (CIE 117): no other surface is as bright as BEYOND."""
         eye = self.t.design.eyes[goal.target]
         PROGRESS.begin(f"Glare at {goal.target}")
-        a = self.scene.glare([eye.position], [eye.gaze], ambient_bounces=self.t.bounces, Sub=BEYOND)
+        a = self.scene.glare([eye.position], [eye.gaze], ambient_bounces=self.t.bounces, directions=self.directions, Sub=BEYOND)
         PROGRESS.clear()
         return Answer(goal, float(a.ugr[0]), float(a.ugr_standard_error[0]))
 

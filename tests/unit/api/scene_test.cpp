@@ -225,7 +225,7 @@ TEST(Scene, AnswersDependNeitherOnThreadsNorOnOtherCalls) {
   Options options;
   options.ambientBounces = 2;
   options.ambientAccuracy = .2;
-  options.ambientDivisions = 64;
+  options.ambientDivisions = 32;
   options.threads = 1;
   const std::vector<double> wanted = scene.trace(rays, options).value.numbers;
   EXPECT_EQ(scene.trace(rays, options).value.numbers, wanted);
@@ -243,7 +243,7 @@ TEST(Scene, AnswersDependNeitherOnThreadsNorOnOtherCalls) {
   Options others;
   others.rotation = 1;
   others.ambientBounces = 2;
-  others.ambientDivisions = 64;
+  others.ambientDivisions = 32;
   EXPECT_NE(scene.trace(rays, others).value.numbers, wanted);
   const rsphere::RayAnswers one = scene.trace({&rays[7], 1}, options);
   EXPECT_EQ(one.value.numbers, std::vector<double>(wanted.begin() + 21, wanted.begin() + 24));
@@ -627,6 +627,7 @@ TEST(Stop, EndsACall) {
   const std::vector<rsphere::Point> points(100000, {1, 1, 1});
   Options options;
   options.ambientBounces = 2;
+  options.directions = 64;
   int asked = 0;
   options.stop = [&, caller = std::this_thread::get_id()] {
     EXPECT_EQ(std::this_thread::get_id(), caller);
@@ -636,7 +637,6 @@ TEST(Stop, EndsACall) {
   EXPECT_EQ(asked, 3);
   // The scene is as good as before, and a call that is not stopped has its answers.
   options.stop = [] { return false; };
-  options.directions = 64;
   EXPECT_EQ(scene.sphere(std::span(points).first(2), options).size, 2u);
 }
 
