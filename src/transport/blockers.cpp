@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "scene/shape.h"
@@ -13,6 +14,9 @@ constexpr size_t kMostKnown = 8;  // number of recent blockers that are kept
 // Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
 // wall.
 constexpr int kSurfacesInTheWay = 6;
+
+// Cap on the blockers that are kept for all regions: 6 MB.
+constexpr size_t kMostFound = 16384;
 
 // The smallest distance that boxes must have from the plane of a polygon that hides one box from the other
 // (world units). Without it, rays could pass the polygon: a surface nearer than kSamePlace to an end of a ray
@@ -48,12 +52,6 @@ bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRe
 
 }  // namespace
 
-int Blocker::axis() const {
-  for (int i = 0; i < 3; ++i)
-    if (box.max[i] - box.min[i] <= kSamePlace) return i;
-  return -1;
-}
-
 Blockers::Blockers(const Scene& scene, const Tracer& tracer)
     : scene_(scene), tracer_(tracer), joined_(scene, tracer) {
   if (!tracer.bounds().isEmpty()) margin_ = 2 * marginOver(tracer.bounds().size().length());
@@ -61,24 +59,34 @@ Blockers::Blockers(const Scene& scene, const Tracer& tracer)
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 
-// Makes an opaque polygon of the scene itself a blocker for rays from a point. Returns false if the surface
-// is not such a polygon. withArea: looks up the polygon's area, and also returns false if the polygon is
-// concave and belongs to none. Without it, the area is only looked up when it is needed, because most
-// polygons can be rejected in less time.
-bool Blockers::find(SurfaceId id, const V3d& from, bool withArea, Blocker& blocker) const {
-  if (id.index() >= scene_.outermostIds().size()) return false;
+// The blocker that an opaque polygon of the scene itself is for rays from a point; null if it is none.
+KnownBlocker Blockers::find(SurfaceId id, const V3d& from) const {
+  if (id.index() >= scene_.outermostIds().size()) return nullptr;
   const Surface surface = scene_.surfaces[id];
   const auto* const polygon = surface.shape.as<Polygon>();
-  if (!polygon || !polygon->hasArea) return false;
-  const double side = polygon->normal.dot(from) - polygon->offset;
-  if (!tracer_.stopsShadows(id, side > 0)) return false;
-  if (thicknessOf(*polygon, scene_.vertices) > kSamePlace) return false;
-  const double sign = side > 0 ? 1 : -1;
-  blocker = {.surface = id, .normal = sign * polygon->normal, .offset = sign * polygon->offset};
-  blocker.size = polygon->extent / 2;
-  blocker.box = rsphere::bounds(*polygon, scene_.vertices);
-  const auto corners = std::span(scene_.vertices).subspan(polygon->firstVertex, polygon->vertices);
-  // A polygon is convex if all vertices lie on the inner side of all edges and the edges make one full turn.
+  if (!polygon || !polygon->hasArea) return nullptr;
+  const bool front = polygon->normal.dot(from) > polygon->offset;
+  const uint64_t key = 2 * static_cast<uint64_t>(id.index()) + front;
+  const std::lock_guard lock(finding_);
+  if (const auto known = found_.find(key); known != found_.end()) return known->second;
+  KnownBlocker blocker = made(id, *polygon, front);
+  if (found_.size() < kMostFound) found_.emplace(key, blocker);
+  return blocker;
+}
+
+// A polygon is convex if all vertices lie on the inner side of all edges and the edges make one full turn.
+KnownBlocker Blockers::made(SurfaceId id, const Polygon& polygon, bool front) const {
+  if (!tracer_.stopsShadows(id, front) || thicknessOf(polygon, scene_.vertices) > kSamePlace) return nullptr;
+  auto blocker = std::make_shared<Blocker>();
+  const double sign = front ? 1 : -1;
+  blocker->surface = id;
+  blocker->normal = sign * polygon.normal;
+  blocker->offset = sign * polygon.offset;
+  blocker->whole = {nullptr, rsphere::bounds(polygon, scene_.vertices), polygon.extent / 2};
+  const V3d size = blocker->whole.box.size();
+  for (int i = 2; i >= 0; --i)
+    if (size[i] <= kSamePlace) blocker->axis = i;
+  const auto corners = std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
   const auto isConvex = [&] {
     if (corners.size() > Blocker::kMostVertices) return false;
     double turn = 0;
@@ -86,39 +94,53 @@ bool Blockers::find(SurfaceId id, const V3d& from, bool withArea, Blocker& block
       const V3d& a = corners[i];
       const V3d& b = corners[(i + 1) % corners.size()];
       const V3d& c = corners[(i + 2) % corners.size()];
-      const V3d inward = polygon->normal.cross(b - a);
+      const V3d inward = polygon.normal.cross(b - a);
       const double length = inward.length();
       if (!(length > 0)) continue;
-      blocker.inward[blocker.edges] = inward / length;
-      blocker.least[blocker.edges] = blocker.inward[blocker.edges].dot(a);
+      V3d& edge = blocker->inward[blocker->edges];
+      edge = inward / length;
+      blocker->least[blocker->edges] = edge.dot(a);
       for (const V3d& corner : corners)
-        if (blocker.inward[blocker.edges].dot(corner) < blocker.least[blocker.edges] - kSamePlace)
-          return false;
-      ++blocker.edges;
-      turn += std::atan2((b - a).cross(c - b).dot(polygon->normal), (b - a).dot(c - b));
+        if (edge.dot(corner) < blocker->least[blocker->edges] - kSamePlace) return false;
+      ++blocker->edges;
+      turn += std::atan2((b - a).cross(c - b).dot(polygon.normal), (b - a).dot(c - b));
     }
     return turn < 3 * kPi;
   };
-  if (!isConvex()) blocker.edges = 0;
-  if (!withArea) return true;
-  if (areaOf(blocker)) {
-    blocker.box = blocker.area->box();
-    const V3d extent = blocker.box.size();
-    const auto axis = static_cast<int>(polygon->axis);
-    blocker.size = (extent[(axis + 1) % 3] + extent[(axis + 2) % 3]) / 2;
-  }
-  return blocker.edges > 0 || blocker.area;
+  if (!isConvex()) blocker->edges = 0;
+  return blocker;
 }
 
-// Looks up the area of a blocker, as seen from its front. Null if the blocker is convex and alone.
-const JoinedPolygons::Area* Blockers::areaOf(Blocker& blocker) const {
-  if (blocker.areaIsKnown) return blocker.area;
-  const Surface surface = scene_.surfaces[blocker.surface];
-  const auto* const area =
-      joined_.areaOf(blocker.surface, surface.shape.as<Polygon>()->normal.dot(blocker.normal) > 0);
-  blocker.area = area && (area->size() > 1 || blocker.edges == 0) ? area : nullptr;
-  blocker.areaIsKnown = true;
-  return blocker.area;
+// It is only looked up when it is needed, because most polygons can be rejected in less time.
+const Blocker::Whole& Blockers::wholeOf(const Blocker& blocker) const {
+  std::call_once(blocker.lookedUp, [&] {
+    const Surface surface = scene_.surfaces[blocker.surface];
+    const auto* const polygon = surface.shape.as<Polygon>();
+    const auto* const area = joined_.areaOf(blocker.surface, polygon->normal.dot(blocker.normal) > 0);
+    if (!area || (area->size() == 1 && blocker.edges > 0)) return;
+    const V3d extent = area->box().size();
+    const auto axis = static_cast<int>(polygon->axis);
+    blocker.whole = {area, area->box(), (extent[(axis + 1) % 3] + extent[(axis + 2) % 3]) / 2};
+  });
+  return blocker.whole;
+}
+
+// The segments from one box to another, and what the search for a blocker has found out about them.
+struct Blockers::Way {
+  const Box3d& from;
+  const Box3d& to;
+  // Whether an area extends far enough to hide the box, but has a hole or a gap.
+  bool seesHole = false;
+  bool wasTried = false;  // whether a segment that misses a polygon has been traced
+  bool isOpen = false;    // whether nothing blocks that segment, so that there is no blocker
+
+  bool missesFirst() { return !std::exchange(wasTried, true); }
+};
+
+bool Blockers::isClear(const V3d& from, const V3d& to) const {
+  V3d way = to - from;
+  const double length = way.length();
+  return length > 0 && tracer_.shadow(from, way / length, length - kSamePlace, kNone) == Shadow::clear;
 }
 
 // Whether every segment from one box to the other hits the front of the blocker (the side from which find()
@@ -127,12 +149,14 @@ const JoinedPolygons::Area* Blockers::areaOf(Blocker& blocker) const {
 // This holds for all places within kBeside times margin() of the boxes, too. Places behind a blocker that is
 // perpendicular to an axis are an exception, since regions end closer to it.
 //
-// Sets seesHole if the blocker's area extends far enough to hide the box, but has a hole or a gap.
-bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const {
+// If a segment misses the polygon, looks whether anything blocks it before the area is looked up, which may
+// take long.
+bool Blockers::covers(const Blocker& blocker, Way& way) const {
+  const Box3d &from = way.from, &to = way.to;
   Box3d both = from;
   both.extendBy(to);
   const double margin = marginOver(both.size().length());
-  const double apart = blocker.axis() < 0 ? margin + kBeside * margin_ : margin;
+  const double apart = blocker.axis < 0 ? margin + kBeside * margin_ : margin;
   const double inset = margin + kBeside * margin_;
   const std::array<V3d, 8> begins = cornersOf(from), ends = cornersOf(to);
   std::array<double, 8> above, below;
@@ -144,7 +168,7 @@ bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool
   Box3d before = from;
   std::array<V3d, 64> cuts;
   bool single = blocker.edges > 0;
-  const JoinedPolygons::Area* area = blocker.area;
+  const JoinedPolygons::Area* area = nullptr;
   for (size_t i = 0; i < 8; ++i)
     for (size_t j = 0; j < 8; ++j) {
       const double t = above[i] / (above[i] + below[j]);
@@ -152,7 +176,9 @@ bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool
       for (uint32_t e = 0; single && e < blocker.edges; ++e)
         single = !(blocker.inward[e].dot(cut) < blocker.least[e] + inset);
       if (!single && !area) {
-        area = areaOf(blocker);
+        if (way.missesFirst()) way.isOpen = isClear(begins[i], ends[j]);
+        if (way.isOpen) return false;
+        area = wholeOf(blocker).area;
         if (!area) return false;
       }
       if (!single && !area->mayContain(cut, inset)) return false;
@@ -160,7 +186,7 @@ bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool
       cuts[8 * i + j] = cut;
     }
   if (!single && !area->contains(cuts, inset)) {
-    seesHole = true;
+    way.seesHole = true;
     return false;
   }
   for (const Box3d& box : tracer_.refracting())
@@ -168,35 +194,41 @@ bool Blockers::covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool
   return true;
 }
 
-bool Blockers::anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const {
+bool Blockers::anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const KnownBlocker&)> use) const {
   return anySurface(tracer_, from, to, [&](SurfaceId surface) {
-    Blocker blocker;
-    return find(surface, from, true, blocker) && use(blocker);
+    const KnownBlocker blocker = find(surface, from);
+    return blocker && (blocker->edges > 0 || wholeOf(*blocker).area) && use(blocker);
   });
 }
 
-bool Blockers::hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known,
+bool Blockers::hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocker>& known,
                      bool fromBothEnds) const {
-  bool seesHole = false;
-  for (size_t i = 0; i < known.size(); ++i)
-    if (covers(known[i], from, to, seesHole)) {
+  if (from.intersects(to)) return false;
+  Way way{from, to};
+  for (size_t i = 0; i < known.size(); ++i) {
+    if (covers(*known[i], way)) {
       std::swap(known[0], known[i]);
       return true;
     }
+    if (way.isOpen) return false;
+  }
   int met = 0;
   const auto hidesBy = [&](SurfaceId surface) {
     ++met;
-    if (std::any_of(known.begin(), known.end(), [&](const Blocker& b) { return b.surface == surface; }))
+    if (std::any_of(known.begin(), known.end(), [&](const auto& b) { return b->surface == surface; }))
       return false;
-    Blocker blocker;
-    if (!find(surface, from.center(), false, blocker) || !covers(blocker, from, to, seesHole)) return false;
-    known.insert(known.begin(), blocker);
+    KnownBlocker blocker = find(surface, from.center());
+    if (!blocker || !covers(*blocker, way)) return way.isOpen;
+    known.insert(known.begin(), std::move(blocker));
     if (known.size() > kMostKnown) known.pop_back();
     return true;
   };
-  if (anySurface(tracer_, from.center(), to.center(), hidesBy)) return true;
-  return fromBothEnds && seesHole && met == kSurfacesInTheWay &&
-         anySurface(tracer_, to.center(), from.center(), hidesBy);
+  // Next to the smaller box, the segments are closest together, so that they miss most holes.
+  V3d begin = from.center(), end = to.center();
+  if (to.size().length2() < from.size().length2()) std::swap(begin, end);
+  if (anySurface(tracer_, begin, end, hidesBy)) return !way.isOpen;
+  return fromBothEnds && way.seesHole && met == kSurfacesInTheWay &&
+         anySurface(tracer_, end, begin, hidesBy) && !way.isOpen;
 }
 
 }  // namespace rsphere

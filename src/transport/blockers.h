@@ -7,6 +7,9 @@
 // plane that touch count as one.
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "trace/tracer.h"
@@ -23,21 +26,21 @@ struct Blocker {
   SurfaceId surface;
   V3d normal{0, 0, 0};  // unit, towards the side from which a ray hit it
   double offset = 0;
-  double size = 0;  // half the sum of its extents along two axes
-  Box3d box{};
-  // Null: the polygon alone, or its area has not been looked up yet (see areaIsKnown).
-  const JoinedPolygons::Area* area = nullptr;
-  bool areaIsKnown = false;
   uint32_t edges = 0;  // 0: only the area hides boxes
   std::array<V3d, kMostVertices> inward{};
   std::array<double, kMostVertices> least{};  // of each edge: inward . p for its points p
+  int axis = -1;                              // that is perpendicular to the polygon's plane; -1: none
 
-  // The axis that is perpendicular to the polygon's plane; -1 if none.
-  int axis() const;
-  bool isSameAs(const Blocker& other) const {
-    return area ? area == other.area : !other.area && surface == other.surface;
-  }
+  // The area, or the polygon alone if it belongs to none. Blockers::wholeOf() looks it up.
+  struct Whole {
+    const JoinedPolygons::Area* area = nullptr;  // null: the polygon alone
+    Box3d box{};
+    double size = 0;  // half the sum of its extents along two axes
+  };
+  mutable std::once_flag lookedUp;
+  mutable Whole whole;
 };
+using KnownBlocker = std::shared_ptr<const Blocker>;
 
 class Blockers {
  public:
@@ -54,21 +57,29 @@ class Blockers {
   // found for nearby boxes. The first of them was the last one that hid a box.
   // fromBothEnds: if holes let light pass the first surfaces on the way, the last ones are examined too. In a
   // tall building with holes in its slabs, often only the last slab hides a box.
-  bool hides(const Box3d& from, const Box3d& to, std::vector<Blocker>& known, bool fromBothEnds) const;
+  bool hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocker>& known, bool fromBothEnds) const;
 
   // Calls use() with each blocker on the way between two points until use() returns true. Returns whether it
   // has returned true.
-  bool anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const Blocker&)> use) const;
+  bool anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const KnownBlocker&)> use) const;
+
+  // Looks up the area of a blocker, as seen from its front.
+  const Blocker::Whole& wholeOf(const Blocker& blocker) const;
 
  private:
-  bool find(SurfaceId surface, const V3d& from, bool withArea, Blocker& blocker) const;
-  const JoinedPolygons::Area* areaOf(Blocker& blocker) const;
-  bool covers(Blocker& blocker, const Box3d& from, const Box3d& to, bool& seesHole) const;
+  KnownBlocker find(SurfaceId id, const V3d& from) const;
+  KnownBlocker made(SurfaceId id, const Polygon& polygon, bool front) const;
+  struct Way;
+  bool covers(const Blocker& blocker, Way& way) const;
+  bool isClear(const V3d& from, const V3d& to) const;
 
   const Scene& scene_;
   const Tracer& tracer_;
   double margin_ = 0;
   JoinedPolygons joined_;
+  // Those that were found so far, by surface and side; null for polygons that are no blockers.
+  mutable std::mutex finding_;
+  mutable std::unordered_map<uint64_t, KnownBlocker> found_;
 };
 
 }  // namespace rsphere

@@ -16,6 +16,11 @@ namespace {
 constexpr double kWorthHiding = .4;
 constexpr size_t kLeastHidden = 2;
 constexpr int kMostInVain = 6;
+// Divisions along the edges of a slab cut thin strips off a region. Boxes that are hidden from the rest are
+// looked for only after the last of them: a half with more than this share of the region's width is divided
+// first, but at most kMostUntested times.
+constexpr double kSameRegion = .99;
+constexpr int kMostUntested = 8;
 // Number of boxes that are examined to decide whether a region is divided.
 constexpr size_t kProbes = 32;
 // To decide whether to divide a region, only polygons are considered whose size times this factor is at most
@@ -54,9 +59,10 @@ struct HiddenBoxes::Region {
   Box3d box{};
   List visible;  // indices of the boxes that are not certainly hidden, in ascending order
   List places;   // the boxes among these that may be hidden, as places in BoxTree::order
-  std::vector<Blocker> blockers;
+  std::vector<KnownBlocker> blockers;
   int inVain = 0;     // number of divisions since the last one that hid a quarter of the boxes
   size_t before = 0;  // number of places after that division
+  int untested = 0;   // number of divisions since boxes were last looked for
   int axis = -1;      // the region is divided perpendicular to this axis; -1: not divided
   double at = 0;
   mutable std::array<std::unique_ptr<const Region>, 2> halves;
@@ -88,7 +94,7 @@ HiddenBoxes::HiddenBoxes(std::shared_ptr<const Blockers> blockers, std::vector<B
 
 // Returns the given places that are not hidden from a region. Both lists are in ascending order.
 std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<const uint32_t> places,
-                                               std::vector<Blocker>& known) const {
+                                               std::vector<KnownBlocker>& known) const {
   struct Some {
     size_t node;
     std::span<const uint32_t> places;
@@ -116,18 +122,20 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
 
 // The polygons that hide boxes from places in a region, each with the number of boxes that it hides, in
 // descending order of that number. Empty if dividing the region would not pay.
-std::vector<std::pair<Blocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
-  std::vector<std::pair<Blocker, size_t>> found;
+std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
+  std::vector<std::pair<KnownBlocker, size_t>> found;
   const double widest = region.box.size()[static_cast<int>(region.box.majorAxis())];
   const size_t step = std::max<size_t>(1, region.places->size() / kProbes);
   size_t probes = 0, hidden = 0;
   for (size_t i = 0; i < region.places->size(); i += step, ++probes)
     blockers_->anyBetween(middleOfOctant(region.box, probes), tree_.boxOf((*region.places)[i]).center(),
-                          [&](const Blocker& blocker) {
-                            if (widest < kWorthDividing * blocker.size) return true;
+                          [&](const KnownBlocker& blocker) {
+                            const Blocker::Whole& whole = blockers_->wholeOf(*blocker);
+                            if (widest < kWorthDividing * whole.size) return true;
                             ++hidden;
-                            const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) {
-                              return f.first.isSameAs(blocker);
+                            const auto same = std::ranges::find_if(found, [&](const auto& f) {
+                              const auto* area = blockers_->wholeOf(*f.first).area;
+                              return area == whole.area && (area || f.first->surface == blocker->surface);
                             });
                             if (same != found.end())
                               ++same->second;
@@ -163,11 +171,12 @@ void HiddenBoxes::divide(Region& region) const {
     return false;
   };
   for (const auto& [blocker, count] : found) {
-    const int axis = blocker.axis();
-    if (axis < 0 || shareAcross(box, blocker.box, axis) < .5) continue;
-    if (divideAt(axis, blocker.box, margin)) return;
+    const int axis = blocker->axis;
+    const Box3d& whole = blockers_->wholeOf(*blocker).box;
+    if (axis < 0 || shareAcross(box, whole, axis) < .5) continue;
+    if (divideAt(axis, whole, margin)) return;
     for (int other = 0; other < 3; ++other)
-      if (other != axis && divideAt(other, blocker.box, (1 + Blockers::kBeside) * margin)) return;
+      if (other != axis && divideAt(other, whole, (1 + Blockers::kBeside) * margin)) return;
   }
   const auto longest = static_cast<int>(box.majorAxis());
   if (box.size()[longest] < 4 * margin) return;
@@ -184,23 +193,38 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   made->box = region.box;
   (upper ? made->box.min : made->box.max)[region.axis] = region.at;
   made->blockers = region.blockers;
-  std::vector<uint32_t> places = visibleFrom(made->box, *region.places, made->blockers);
   made->visible = region.visible;
   made->places = region.places;
+  made->inVain = region.inVain;
+  made->before = region.before;
+  const double share = made->box.size()[region.axis] / region.box.size()[region.axis];
+  if (share > kSameRegion && region.untested < kMostUntested) {
+    made->untested = region.untested + 1;
+    divide(*made);
+  }
+  if (made->axis < 0) {
+    findVisible(*made);
+    if (made->inVain < kMostInVain) divide(*made);
+  }
+  region.ready[which].store(made.get(), std::memory_order_release);
+  region.halves[which] = std::move(made);
+  return *region.halves[which];
+}
+
+// Removes boxes from the lists of a region that are hidden from it.
+void HiddenBoxes::findVisible(Region& region) const {
+  std::vector<uint32_t> places = visibleFrom(region.box, *region.places, region.blockers);
   if (places.size() < region.places->size()) {
     std::vector<uint32_t> visible = never_;
     for (const uint32_t place : places) visible.push_back(tree_.order[place]);
     std::sort(visible.begin(), visible.end());
-    made->visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
-    made->places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
+    region.visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
+    region.places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
   }
-  const bool shrunk = 4 * made->places->size() <= 3 * region.before;
-  made->inVain = shrunk ? 0 : region.inVain + 1;
-  made->before = shrunk ? made->places->size() : region.before;
-  if (made->inVain < kMostInVain) divide(*made);
-  region.ready[which].store(made.get(), std::memory_order_release);
-  region.halves[which] = std::move(made);
-  return *region.halves[which];
+  const bool shrunk = 4 * region.places->size() <= 3 * region.before;
+  region.inVain = shrunk ? 0 : region.inVain + 1;
+  region.before = shrunk ? region.places->size() : region.before;
+  region.untested = 0;
 }
 
 // Returns a place in the region in front of the surface of the point, if that surface is perpendicular to an

@@ -58,9 +58,10 @@ class HiddenBoxes {
   std::span<const uint32_t> find(const V3d& point) const;
   const Region& half(const Region& region, int upper) const;
   void divide(Region& region) const;
-  std::vector<std::pair<Blocker, size_t>> blockersIn(const Region& region) const;
+  void findVisible(Region& region) const;
+  std::vector<std::pair<KnownBlocker, size_t>> blockersIn(const Region& region) const;
   std::vector<uint32_t> visibleFrom(const Box3d& region, std::span<const uint32_t> places,
-                                    std::vector<Blocker>& known) const;
+                                    std::vector<KnownBlocker>& known) const;
 
   std::shared_ptr<const Blockers> blockers_;
   BoxTree tree_;

@@ -116,7 +116,7 @@ struct Building {
   HiddenBoxes hidden{std::make_shared<const Blockers>(scene, tracer), lamps(), 8};
 
   bool hides(const Box3d& from, const Box3d& to) const {
-    std::vector<Blocker> known;
+    std::vector<KnownBlocker> known;
     return hidden.blockers()->hides(from, to, known, true);
   }
 };
