@@ -18,8 +18,11 @@ HighlightLobe BallHighlights::lobeOf(const Ball& ball, const SourcePart& part, c
 BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                                double least) {
   const auto size = [](const Sphere& sphere) { return sphere.inward ? 0 : sphere.radius; };
-  for (const auto& r : largestReflectors<Sphere>(scene, tuning::Caps::kAsked, size))
-    if (Ball ball = lit(*r.shape, *r.material, scene, tracer, lights); ball.intensity > 0)
+  const auto reflectors = largestReflectors<Sphere>(scene, tuning::Caps::kAsked, size);
+  if (reflectors.empty()) return;
+  const BrightestSources sources(scene, lights);
+  for (const auto& r : reflectors)
+    if (Ball ball = lit(*r.shape, *r.material, tracer, sources); ball.intensity > 0)
       balls_.push_back(std::move(ball));
   keepLargest(balls_, balls_.size(), [](const Ball& ball) { return ball.intensity; });
   std::vector<ReachGrid::Reach> reaches;
@@ -32,8 +35,8 @@ BallHighlights::BallHighlights(const Scene& scene, const Tracer& tracer, const L
 // Finds the sources that light a ball. A mirroring ball of radius r distributes the light of a distant source
 // uniformly over all directions: at a distance d, the solid angle of the source's image is (r / 2d)^2 times
 // the solid angle of the source as seen from the ball.
-BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& material, const Scene& scene,
-                                         const Tracer& tracer, const LightSources& lights) {
+BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& material, const Tracer& tracer,
+                                         const BrightestSources& sources) {
   Ball ball{sphere, material.roughness, 0, 0, {}};
   const double reflectance = reflectanceOf(material);
   struct Candidate {
@@ -41,12 +44,13 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
     double solidAngle, intensity;
   };
   std::vector<Candidate> candidates;
-  for (const LightSource& source : lights.all())
-    for (const LightingPart& part : partsThatLight(source, sphere.center, sphere.radius, scene)) {
-      const double solidAngle = part.solidAngle(sphere.center);
-      const double intensity = part.radiance * reflectance * solidAngle * sphere.radius * sphere.radius / 4;
-      if (intensity > 0) candidates.push_back({part, solidAngle, intensity});
-    }
+  const auto placeFor = [&](const LightSource&) { return sphere.center; };
+  for (const LightingPart& part :
+       sources.at(Box3d(sphere.center), sphere.radius, tuning::Caps::kAimed, placeFor)) {
+    const double solidAngle = part.solidAngle(sphere.center);
+    const double intensity = part.radiance * reflectance * solidAngle * sphere.radius * sphere.radius / 4;
+    if (intensity > 0) candidates.push_back({part, solidAngle, intensity});
+  }
   keepLargest(candidates, tuning::Caps::kAimed, [](const Candidate& c) { return c.intensity; });
   for (const Candidate& c : candidates) {
     const V3d out = c.part.part.towards(sphere.center).normalized();

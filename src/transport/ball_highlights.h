@@ -9,6 +9,7 @@
 //
 // Smooth balls are ignored: as in rtrace, light sources mirrored by smooth surfaces are not visible to
 // indirect rays.
+#include "transport/brightest_sources.h"
 #include "transport/highlight_choice.h"
 #include "transport/proposals.h"
 #include "transport/reach_grid.h"
@@ -56,8 +57,8 @@ class BallHighlights {
     std::vector<Part> parts;
   };
 
-  static Ball lit(const Sphere& sphere, const Opaque& material, const Scene& scene, const Tracer& tracer,
-                  const LightSources& lights);
+  static Ball lit(const Sphere& sphere, const Opaque& material, const Tracer& tracer,
+                  const BrightestSources& sources);
   static HighlightLobe lobeOf(const Ball& ball, const SourcePart& part, const V3d& point);
   static bool meets(const Ball& ball, const V3d& point, const V3d& direction, V3d& normal);
   static bool isNear(const Ball& ball, const SourcePart& part, const V3d& direction, const V3d& normal);

@@ -32,8 +32,11 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
   const auto size = [](const Cone& cone) {
     return cone.radius0 == cone.radius1 ? cone.radius0 * cone.length : 0;
   };
-  for (const auto& r : largestReflectors<Cone>(scene, tuning::Caps::kAsked, size))
-    if (Cylinder cylinder = lit(*r.shape, *r.material, scene, tracer, lights); !cylinder.parts.empty())
+  const auto reflectors = largestReflectors<Cone>(scene, tuning::Caps::kAsked, size);
+  if (reflectors.empty()) return;
+  const BrightestSources sources(scene, lights);
+  for (const auto& r : reflectors)
+    if (Cylinder cylinder = lit(*r.shape, *r.material, tracer, sources); !cylinder.parts.empty())
       cylinders_.push_back(std::move(cylinder));
   keepLargest(cylinders_, cylinders_.size(), [](const Cylinder& cylinder) { return cylinder.hot; });
   std::vector<ReachGrid::Reach> reaches;
@@ -50,8 +53,7 @@ CylinderHighlights::CylinderHighlights(const Scene& scene, const Tracer& tracer,
 // axis, the image of a distant source, seen from a distance d, has r / 2d times the solid angle of the source
 // as seen from the cylinder. In other planes, cosines change this by a factor near 1.
 CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Opaque& material,
-                                                     const Scene& scene, const Tracer& tracer,
-                                                     const LightSources& lights) {
+                                                     const Tracer& tracer, const BrightestSources& sources) {
   Cylinder cylinder{shape, material.roughness, 0, {}};
   const double reflectance = reflectanceOf(material), radius = shape.radius0;
   struct Candidate {
@@ -59,18 +61,22 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
     double bright;
   };
   std::vector<Candidate> candidates;
-  for (const LightSource& source : lights.all()) {
-    const V3d from =
-        source.isDistant() ? shape.base + shape.length / 2 * shape.axis : nearestOnAxis(shape, source.center);
-    for (const LightingPart& part : partsThatLight(source, from, radius, scene)) {
-      const double solidAngle = part.solidAngle(from), radiance = reflectance * part.radiance;
-      const double spread = cylinder.roughness * cylinder.roughness + solidAngle / (8 * kPi);
-      const double bright = radiance * solidAngle * radius / 2;
-      const double hot = bright * bright / (4 * kPi * kPi * radius * spread);
-      if (hot > 0) candidates.push_back({{part, radiance, hot}, bright});
-    }
+  const auto placeFor = [&](const LightSource& source) {
+    return source.isDistant() ? shape.base + shape.length / 2 * shape.axis
+                              : nearestOnAxis(shape, source.center);
+  };
+  Box3d places(shape.base);
+  places.extendBy(shape.base + shape.length * shape.axis);
+  constexpr size_t kMost = tuning::Caps::kAimed / 2;
+  for (const LightingPart& part : sources.at(places, radius, kMost, placeFor)) {
+    const double solidAngle = part.solidAngle(placeFor(*part.source));
+    const double radiance = reflectance * part.radiance;
+    const double spread = cylinder.roughness * cylinder.roughness + solidAngle / (8 * kPi);
+    const double bright = radiance * solidAngle * radius / 2;
+    const double hot = bright * bright / (4 * kPi * kPi * radius * spread);
+    if (hot > 0) candidates.push_back({{part, radiance, hot}, bright});
   }
-  keepLargest(candidates, tuning::Caps::kAimed / 2, [](const Candidate& c) { return c.bright; });
+  keepLargest(candidates, kMost, [](const Candidate& c) { return c.bright; });
   for (const Candidate& c : candidates) {
     const bool seen = std::any_of(std::begin(kPlaces), std::end(kPlaces), [&](double share) {
       const V3d place = shape.base + share * shape.length * shape.axis;

@@ -4,6 +4,7 @@
 // where the directions to the point and to the source make equal angles with the axis; if that place lies
 // beyond an end, there is none. Unlike those of a ball, highlights are therefore searched for each point
 // separately.
+#include "transport/brightest_sources.h"
 #include "transport/highlight_choice.h"
 #include "transport/proposals.h"
 #include "transport/reach_grid.h"
@@ -51,8 +52,8 @@ class CylinderHighlights {
     std::vector<Part> parts;
   };
 
-  static Cylinder lit(const Cone& shape, const Opaque& material, const Scene& scene, const Tracer& tracer,
-                      const LightSources& lights);
+  static Cylinder lit(const Cone& shape, const Opaque& material, const Tracer& tracer,
+                      const BrightestSources& sources);
   static bool meets(const Cone& cylinder, const V3d& point, const V3d& direction);
 
   std::vector<Cylinder> cylinders_;
