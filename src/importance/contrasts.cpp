@@ -75,44 +75,101 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
   return values.deviation();
 }
 
+ModifierId modifierOf(const Scene& scene, const SpecialObject& object) {
+  return scene.surfaces[object.surface].modifier;
+}
+
+std::vector<SpecialObject> byModifier(const Scene& scene, std::span<const SpecialObject> objects) {
+  std::vector<SpecialObject> sorted(objects.begin(), objects.end());
+  std::ranges::stable_sort(sorted, {}, [&](const SpecialObject& o) { return modifierOf(scene, o); });
+  return sorted;
+}
+
+std::vector<Box3d> boxesOf(const Scene& scene, std::span<const SpecialObject> objects) {
+  std::vector<Box3d> boxes;
+  for (const SpecialObject& object : objects)
+    boxes.push_back(bounds(shapeOf(scene, object), verticesOf(scene, object)));
+  return boxes;
+}
+
+// A region of points shares its measurements. The region around a point is as wide as possible while at most
+// this number of times as many objects can be seen from it as from the point.
+constexpr size_t kWider = 2;
+
 }  // namespace
+
+// The objects that can be seen from a region, by modifier.
+class Contrasts::Region {
+ public:
+  Region(std::span<const uint32_t> seen, std::span<const uint32_t> alikeOf) : objects(seen) {
+    if (!alikeOf.empty()) alike = std::vector<Alike>(alikeOf.back() + 1);
+    for (const uint32_t i : seen) alike[alikeOf[i]].objects.push_back(i);
+  }
+
+  struct Alike {
+    std::vector<uint32_t> objects;
+    mutable std::once_flag measured;
+    mutable double deviation = 0;
+  };
+
+  std::span<const uint32_t> objects;
+  std::vector<Alike> alike;  // by number of the modifier
+};
 
 Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                      const SeenSources& sources)
-    : tracing_{tracing.prepared, tracing.caches, tracing.aims, tracing.vertexLight},
+    : tracing_{tracing.prepared, tracing.caches, tracing.aims, tracing.pools},
       sources_(sources),
-      objects_(objects.begin(), objects.end()) {
+      objects_(byModifier(tracing.prepared.scene(), objects)),
+      hidden_(tracing.prepared.lights().hidden().blockers(), boxesOf(tracing.prepared.scene(), objects_),
+              kFewHidden) {
   if (objects.empty() && !tracing.aims.openings) return;
   const Scene& scene = tracing.prepared.scene();
-  const auto modifierOf = [&](const SpecialObject& object) {
-    return scene.surfaces[object.surface].modifier;
-  };
-  std::ranges::stable_sort(objects_, {}, modifierOf);
-  for (size_t i = 0; i < objects_.size(); ++i) {
-    if (i == 0 || modifierOf(objects_[i]) != modifierOf(objects_[i - 1])) {
-      alike_.push_back(std::make_unique<Alike>());
-      alike_.back()->first = i;
-    }
-    ++alike_.back()->count;
-    alikeOf_.push_back(static_cast<uint32_t>(alike_.size() - 1));
-  }
-  if (tracing.vertexLight) return;
+  for (size_t i = 0; i < objects_.size(); ++i)
+    if (i == 0)
+      alikeOf_.push_back(0);
+    else
+      alikeOf_.push_back(alikeOf_.back() +
+                         (modifierOf(scene, objects_[i]) != modifierOf(scene, objects_[i - 1])));
+  if (tracing.pools) return;
   PathTracer tracer = tracing_.tracer();
   baseError_ = measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;
 }
 
-double Contrasts::deviationOn(size_t object) const {
-  Alike& alike = *alike_[alikeOf_[object]];
+Contrasts::View Contrasts::from(const V3d& point) const {
+  const std::span<const uint32_t> own = hidden_.notHiddenFrom(point);
+  // Wider regions share their measurements among more points.
+  const std::span<const uint32_t> wide =
+      hidden_.widestWhere(point, [&](auto some) { return some.size() <= kWider * own.size(); });
+  const std::lock_guard lock(making_);
+  auto& region = regions_[wide.data()];
+  if (!region) region = std::make_shared<const Region>(wide, alikeOf_);
+  return {own, region};
+}
+
+double Contrasts::deviationOn(size_t object, const Region& region) const {
+  const size_t count = alikeOf_.back() + 1;
+  const Region::Alike& alike = region.alike[alikeOf_[object]];
   std::call_once(alike.measured, [&] {
-    const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / alike_.size(), 2, tuning::Contrasts::kRays);
+    std::vector<SpecialObject> objects;
+    for (const uint32_t i : alike.objects) objects.push_back(objects_[i]);
+    const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / count, 2, tuning::Contrasts::kRays);
     PathTracer tracer = tracing_.tracer();
     PathRequest request;
-    request.vertexLight = tracing_.vertexLight.get();
-    alike.deviation =
-        measureDeviation(tracing_.prepared.scene(), std::span(objects_).subspan(alike.first, alike.count),
-                         rays, sources_, request, tracer);
+    const std::shared_ptr<const VertexLight> light = lightFor(region);
+    request.vertexLight = light.get();
+    alike.deviation = measureDeviation(tracing_.prepared.scene(), objects, rays, sources_, request, tracer);
   });
   return alike.deviation;
+}
+
+// The light vertices of the place in the middle of a region's objects; of all places if it sees all objects.
+std::shared_ptr<const VertexLight> Contrasts::lightFor(const Region& region) const {
+  if (!tracing_.pools) return nullptr;
+  if (region.objects.size() == objects_.size()) return tracing_.pools->ofAll();
+  const Scene& scene = tracing_.prepared.scene();
+  const SpecialObject& middle = objects_[region.objects[region.objects.size() / 2]];
+  return tracing_.pools->at(bounds(shapeOf(scene, middle), verticesOf(scene, middle)).center(), 0);
 }
 
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources) {

@@ -1,6 +1,7 @@
 #pragma once
 // Measures how much radiance varies on special objects, compared with the rest of the view. The rays of these
 // measurements enter no estimate, so that estimates at points stay unbiased.
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -9,11 +10,13 @@
 #include "importance/seen_sources.h"
 #include "importance/special_objects.h"
 #include "importance/sphere_tracing.h"
+#include "transport/hidden_boxes.h"
 
 namespace rsphere {
 
 // Shared by all threads. Objects with the same modifier share one measurement, which is made when a point
-// first asks for it: in a building, most objects are hidden from all points. The results depend only on the
+// first asks for it. In a building, it is made in each region of points, with the objects that can be seen
+// from there: the others are in other rooms, under other light. The results depend only on the region, the
 // scene and the options.
 class Contrasts {
  public:
@@ -23,26 +26,32 @@ class Contrasts {
 
   // The objects, in the order of their modifiers.
   std::span<const SpecialObject> objects() const { return objects_; }
+  // Measurements for the points of a region.
+  class Region;
+  // The objects that are not hidden from a point, as positions in objects(), and the region of the point.
+  struct View {
+    std::span<const uint32_t> objects;
+    std::shared_ptr<const Region> region;
+  };
+  View from(const V3d& point) const;
   // The standard deviation of the brightness on an object (W/sr/m2). object: its position in objects().
-  double deviationOn(size_t object) const;
+  double deviationOn(size_t object, const Region& region) const;
 
   // Relative standard deviation of the brightness along one path: the error of a single base direction. 1 if
   // it was not measured.
   double baseError() const { return baseError_; }
 
  private:
-  // Objects that follow each other and have the same modifier.
-  struct Alike {
-    size_t first = 0, count = 0;
-    std::once_flag measured;
-    double deviation = 0;
-  };
+  std::shared_ptr<const VertexLight> lightFor(const Region& region) const;
 
   SphereTracing tracing_;
   const SeenSources& sources_;
   std::vector<SpecialObject> objects_;
-  std::vector<std::unique_ptr<Alike>> alike_;
-  std::vector<uint32_t> alikeOf_;  // by object: position in alike_
+  std::vector<uint32_t> alikeOf_;  // by object: number of its modifier among those of all objects
+  HiddenBoxes hidden_;             // the boxes around objects_
+  mutable std::mutex making_;      // guards regions_
+  // By the objects that can be seen from a region: HiddenBoxes keeps one list for each region.
+  mutable std::map<const uint32_t*, std::shared_ptr<const Region>> regions_;
   double baseError_ = 1;
 };
 

@@ -112,7 +112,7 @@ class DiffuseGlances::Joins {
     at.flat = v.flat;
     at.pattern = v.pattern;
     const double arriving = -v.direction.dot(at.normal);
-    const double weight = 1 / (density_ * cosine / square * v.shadowRays + share);
+    const double weight = 1 / (density_ * cosine / square * vertices_.shadowRaysTo(v) + share);
     return v.power * shownOfSource(at, direction, -v.direction, 1) * (cosine / square * weight / arriving);
   }
 

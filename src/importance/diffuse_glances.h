@@ -57,7 +57,7 @@ class DiffuseGlances {
   std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
     return lights_.at(set.point(), set.number());
   }
-  std::shared_ptr<const VertexLight> lightOfAll() const { return lights_.ofAll(); }  // for any point
+  const LightPools& lights() const { return lights_; }
 
  private:
   class Joins;

@@ -209,7 +209,7 @@ SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport,
   SphereTracing tracing{transport.prepared(), cachesFor(transport, haveVertices)};
   if (sendsToSpecialObjects(options)) {
     if (haveVertices)
-      tracing.vertexLight = glances->lightOfAll();
+      tracing.pools = &glances->lights();
     else
       tracing.ofPoints = findAimsOfPoints(transport.prepared());
     tracing.aims = joined(aimsFor(transport, haveVertices), tracing.ofPoints);
@@ -220,7 +220,7 @@ SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport,
 SphereEstimator::Method SphereEstimator::daylitMethod(const PlainSurfaces& surfaces) const {
   const SphereTracing& usual = usual_.tracing;
   auto glances = DiffuseGlances::makeDaylit(usual, surfaces, options_, base_);
-  SphereTracing tracing{usual.prepared, usual.caches, usual.aims, glances->lightOfAll()};
+  SphereTracing tracing{usual.prepared, usual.caches, usual.aims, &glances->lights()};
   tracing.aims.spots = nullptr;
   return {std::move(glances), std::move(tracing)};
 }

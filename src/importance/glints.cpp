@@ -107,7 +107,9 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
     : prepared_(prepared),
       balls_(ballsAmong(prepared.scene(), objects)),
-      hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_), kFewHidden) {
+      // In buildings, also few balls are worth it, because the sources of each are looked up.
+      hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_),
+              prepared.lights().hidden().divides() ? 1 : kFewHidden) {
   const Scene& scene = prepared.scene();
   const auto& all = prepared.lights().all();
   lights_.resize(all.size());

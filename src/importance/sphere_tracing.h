@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "importance/light_pools.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {
@@ -9,10 +10,9 @@ namespace rsphere {
 struct SphereTracing {
   const PreparedScene& prepared;
   const Caches& caches;
-  Aims aims{};                                       // where indirect rays are aimed
-  std::shared_ptr<const VertexLight> vertexLight{};  // PathRequest::vertexLight; null: none
-  FoundAims ofPoints{};                              // owns the members of `aims` that were found for points
-                                                     // only
+  Aims aims{};                        // where indirect rays are aimed
+  const LightPools* pools = nullptr;  // of light vertices; null: none
+  FoundAims ofPoints{};               // owns the members of `aims` that were found for points only
 
   // Each thread needs its own.
   PathTracer tracer() const {

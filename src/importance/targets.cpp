@@ -86,13 +86,6 @@ bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d&
   });
 }
 
-std::vector<Box3d> boxesOf(const Scene& scene, const Contrasts& contrasts) {
-  std::vector<Box3d> boxes;
-  for (const SpecialObject& object : contrasts.objects())
-    boxes.push_back(bounds(shapeOf(scene, object), verticesOf(scene, object)));
-  return boxes;
-}
-
 }  // namespace
 
 Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
@@ -116,7 +109,6 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
       sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(tracing, objects, sources),
-      hidden_(prepared_.lights().hidden().blockers(), boxesOf(prepared_.scene(), contrasts_), kFewHidden),
       glints_(tracing.prepared, objects) {
   const Openings* const openings = tracing.aims.openings;
   radiances_.resize(contrasts_.objects().size());
@@ -152,9 +144,10 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     sum += density * solidAngle;
     targets.push_back({std::move(silhouette), density, density * solidAngle, continues});
   };
-  for (const uint32_t i : hidden_.notHiddenFrom(point))
-    add(silhouetteOf(prepared_.scene(), contrasts_.objects()[i], point), contrasts_.deviationOn(i), false,
-        radiances_[i]);
+  const Contrasts::View view = contrasts_.from(point);
+  for (const uint32_t i : view.objects)
+    add(silhouetteOf(prepared_.scene(), contrasts_.objects()[i], point),
+        contrasts_.deviationOn(i, *view.region), false, radiances_[i]);
   if (usual > 0)
     for (Glint& g : glints_.find(point, tuning::Targets::kLeastGlint * kFullSphere * usual * usual))
       add(std::move(g.region), tuning::Targets::kPartlyLit * g.brightness, g.continues);

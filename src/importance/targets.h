@@ -72,7 +72,6 @@ class TargetChoice {
   std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;
-  HiddenBoxes hidden_;  // the boxes around contrasts_.objects()
   Glints glints_;
 };
 

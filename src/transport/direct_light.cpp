@@ -22,6 +22,8 @@ constexpr double kWideJitter = .5;
 // Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
+// Up to this number of sources, a glimpse samples them all. Insensitive.
+constexpr size_t kFewOfGlimpse = 128;
 
 // Kinds of sources. The visibility of each is estimated separately, because their causes of occlusion differ.
 constexpr int kSourceKinds = 3;
@@ -178,6 +180,14 @@ void DirectLight::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) scratch_.order[before[i]] = i;
 }
 
+// The sources that may light a place. Few of the places that glimpses see are seen again, so that they take
+// hidden sources into account rather than divide regions down to the last (HiddenBoxes).
+std::span<const uint32_t> DirectLight::notHiddenFrom(const V3d& point, const V3d& front) const {
+  const HiddenBoxes& hidden = t_.lights().hidden();
+  if (!state_.glimpses) return hidden.notHiddenFrom(point, front);
+  return hidden.widestWhere(point, [](auto some) { return some.size() <= kFewOfGlimpse; });
+}
+
 // Fills the scratch memory with the unoccluded contributions of all source samples, except black ones.
 // Returns the number of contributions.
 uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
@@ -198,7 +208,7 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   // If the observer wants to see all shadow rays, those to hidden sources are traced too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
-                                                : t_.lights().hidden().notHiddenFrom(at.point, front);
+                                                : notHiddenFrom(at.point, front);
   for (const uint32_t i : sources)
     if (!leftOut || !leftOut->knows(LightId(i)))
       t_.lights().sample(LightId(i), at.point, how, state_.random, scratch_.samples);

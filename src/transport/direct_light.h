@@ -66,6 +66,7 @@ class DirectLight : PathPart {
   bool aim(NextRay& next, Receiver at, const Contribution& to);
   Radiance valueFromSource(Receiver at, const Contribution& to);
   void show(Receiver at, const Contribution& to);
+  std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const;
   uint32_t findContributions(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                              const PartOfLobe* partOfLobe);
   void addSamples(Receiver at, LightId source, const SourceSampling& how, DirectCoefficient coefficientOf,

@@ -104,7 +104,6 @@ class LightVertices::Path {
   bool meetMirror(const Hit& hit);
   void arrive(const PlainPlace& at);
   void addVisible(const PlainPlace& at, double reflected);
-  double shadowRaysTo(const PlainPlace& at);
   bool reflect(const PlainPlace& at);
   bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
@@ -124,10 +123,6 @@ class LightVertices::Path {
     bool fromSource = true;          // no surface has reflected the light yet; false for light of the sky
     int bounces = 0;
   };
-  struct Work {
-    std::vector<double> weights;
-    FunctionScratch scratch;
-  };
 
   const PreparedScene& prepared_;
   LightVertices& all_;
@@ -136,7 +131,7 @@ class LightVertices::Path {
   size_t batch_;
   Beam beam_;
   Past past_;
-  Work work_;
+  FunctionScratch scratch_;
 };
 
 LightVertices::Path::Course LightVertices::Path::send(double where) {
@@ -152,8 +147,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
       if (finish.pane ? passPane(hit) : meetMirror(hit)) continue;
       break;
     }
-    const PlainPlace at = all_.surfaces_.placeOf(beam_.origin, beam_.direction,
-                                                 {hit, hit.distance, Coefficient(1)}, work_.scratch);
+    const PlainPlace at =
+        all_.surfaces_.placeOf(beam_.origin, beam_.direction, {hit, hit.distance, Coefficient(1)}, scratch_);
     if (course.met == 0) course.firstLength = beam_.length;
     if (past_.fromSource) {
       beam_.power = beam_.power * all_.starts_.onSources.divergence(past_.source, beam_.length);
@@ -202,7 +197,7 @@ bool LightVertices::Path::leave(double where) {
   if (past_.source == kNone) return false;
   if (!prepared_.lights().all()[past_.source].isDistant())
     beam_.start = prepared_.lights().all()[past_.source].surface;
-  const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, random_, work_.scratch);
+  const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, random_, scratch_);
   beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
   beam_.direction = way.direction;
   past_.cosineAtSource = way.from.normal.dot(beam_.direction);
@@ -280,22 +275,8 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   const Irradiance power = direct ? beam_.power : Irradiance(beam_.power.color * at.color());
   all_.visible_.add({vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_), power, beam_.direction,
-                     at.material, at.pattern, at.flat, beam_.length, direct ? shadowRaysTo(at) : 0});
-}
-
-// SourceEmission::shadowRaysOver() for the place on the source where this path began.
-double LightVertices::Path::shadowRaysTo(const PlainPlace& at) {
-  std::span<const uint32_t> sources;
-  const double sum = all_.surfaces_.weigh(at.point, at.normal, sources, work_.weights);
-  if (!(sum > 0)) return 0;
-  const auto own = std::lower_bound(sources.begin(), sources.end(), past_.source.index()) - sources.begin();
-  SourceSample same;
-  same.direction = -beam_.direction;
-  same.distance = beam_.length;
-  same.cosine = past_.cosineAtSource;
-  same.source = past_.source;
-  return all_.starts_.onSources.shadowRaysOver(same, at.normal,
-                                               work_.weights[static_cast<size_t>(own)] / sum);
+                     at.material, at.pattern, at.flat, beam_.length, at.normal, past_.source,
+                     past_.cosineAtSource});
 }
 
 // Selects diffuse reflection, specular reflection or the end of the path, with probabilities proportional to
@@ -343,6 +324,25 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
     beam_.power = Irradiance(beam_.power.color * s.specularReflection * (weight * scale));
   }
   return std::abs(brightness(beam_.power)) > 0;
+}
+
+double LightVertices::shadowRaysTo(const VisibleVertex& v) const {
+  std::atomic<double>& known = visible_.shadowRays_[static_cast<size_t>(&v - visible_.all_.data())];
+  if (const double rays = known.load(std::memory_order_relaxed); rays > 0) return rays;
+  std::span<const uint32_t> sources;
+  std::vector<double> weights;
+  const double sum = surfaces_.weigh(v.vertex.point(), v.normal, sources, weights);
+  if (!(sum > 0)) return 0;
+  const auto own = std::lower_bound(sources.begin(), sources.end(), v.source.index()) - sources.begin();
+  SourceSample same;
+  same.direction = -v.direction;
+  same.distance = v.length;
+  same.cosine = v.cosineAtSource;
+  same.source = v.source;
+  const double rays =
+      starts_.onSources.shadowRaysOver(same, v.normal, weights[static_cast<size_t>(own)] / sum);
+  known.store(rays, std::memory_order_relaxed);
+  return rays;
 }
 
 double LightVertices::shareOfSky(const PlainSurfaces& surfaces) {
@@ -406,6 +406,7 @@ void LightVertices::sort() {
 
 void VisibleVertices::sort(const PreparedScene& prepared) {
   permute(all_, orderByPlace(all_.size(), [&](size_t i) { return all_[i].vertex.point(); }));
+  shadowRays_ = std::vector<std::atomic<double>>(all_.size());
   // Boxes are only made if light sources are hidden from some regions. In other scenes, few regions are
   // hidden from each other.
   if (!prepared.lights().hidden().divides()) return;

@@ -10,6 +10,7 @@
 //   reflections.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
 //   direct sunlight, it is light of other surfaces or of the sky, which sharp reflections transport, too.
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -45,10 +46,10 @@ struct VisibleVertex {
   const Opaque* material;
   Color pattern;
   bool flat;
-  double length;  // distance from the surface or source that sent the light, world units
-  // For direct light: SourceEmission::shadowRaysOver() for shadow rays from the vertex to the place on the
-  // source where the light path began. Otherwise 0.
-  double shadowRays;
+  double length;   // distance from the surface or source that sent the light, world units
+  V3d normal;      // as vertex.normal(), in double precision
+  LightId source;  // for direct light: where the light path began, and the cosine there
+  double cosineAtSource;
 
   // The fraction of the vertex's light that is estimated by joins with an eye at this distance.
   double joinedShare(const NearLight& near, double fromEye) const {
@@ -72,8 +73,12 @@ class VisibleVertices {
  private:
   static constexpr size_t kBlock = 256;
 
+  friend class LightVertices;
+
   std::vector<VisibleVertex> all_;
   std::optional<HiddenBoxes> hidden_;  // boxes around blocks of all_; empty if little is hidden
+  // LightVertices::shadowRaysTo(), for each of all_; 0: not computed yet.
+  mutable std::vector<std::atomic<double>> shadowRays_;
 };
 
 // Shared by all threads; constant.
@@ -97,6 +102,10 @@ class LightVertices {
   const Opaque& materialOf(size_t i) const { return *arriving_[i].material; }
 
   const VisibleVertices& visible() const { return visible_; }
+  // SourceEmission::shadowRaysOver() for shadow rays from a vertex of visible() to the place on the source
+  // where the light path began. Computed when it is first asked for: in a building, most vertices are in
+  // other rooms. REQUIRES direct light.
+  double shadowRaysTo(const VisibleVertex& vertex) const;
   const NearLight& nearLight() const { return near_; }
   const SourceEmission& emission() const { return starts_.onSources; }
   // Mean power of a path, W (brightness).

@@ -1,5 +1,6 @@
 #include "importance/targets.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -183,6 +184,14 @@ TEST(Contrasts, NoneOfDiffuseScenes) {
   EXPECT_EQ(contrasts.baseError(), 1);
 }
 
+// Contrasts::deviationOn() for all objects that may be seen from a point.
+std::vector<double> deviationsFrom(const V3d& point, const Contrasts& contrasts) {
+  const Contrasts::View view = contrasts.from(point);
+  std::vector<double> deviations;
+  for (const uint32_t i : view.objects) deviations.push_back(contrasts.deviationOn(i, *view.region));
+  return deviations;
+}
+
 // Under a sky that is 1 above and 0 below a mirror shows .9 or 0, with a deviation of at most .45.
 TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
   const SphereSetting setting(
@@ -192,7 +201,7 @@ TEST(Contrasts, OfAMirrorUnderHalfASphereOfLight) {
   const SeenSources sources(setting.transport->prepared());
   const Contrasts contrasts(setting.tracing(), objects, sources);
   ASSERT_EQ(contrasts.objects().size(), 1u);
-  EXPECT_NEAR(contrasts.deviationOn(0), .45, .05);
+  EXPECT_NEAR(deviationsFrom(V3d(0, 0, 5), contrasts)[0], .45, .05);
   EXPECT_GT(contrasts.baseError(), 0);
 }
 
@@ -206,12 +215,37 @@ TEST(Contrasts, DoNotDependOnTheOrderOfRequests) {
   const SeenSources sources(setting.transport->prepared());
   const Contrasts one(setting.tracing(), objects, sources), other(setting.tracing(), objects, sources);
   ASSERT_EQ(one.objects().size(), 3u);
-  std::array<double, 3> forwards{}, backwards{};
-  for (size_t i = 0; i < 3; ++i) forwards[i] = one.deviationOn(i);
-  for (size_t i = 3; i-- > 0;) backwards[i] = other.deviationOn(i);
+  const V3d point(0, 0, 5);
+  const std::vector<double> forwards = deviationsFrom(point, one);
+  std::vector<double> backwards(3);
+  for (size_t i = 3; i-- > 0;) backwards[i] = other.deviationOn(i, *other.from(point).region);
   EXPECT_EQ(forwards, backwards);
   EXPECT_EQ(forwards[0], forwards[1]) << "both are of chrome";
   EXPECT_GT(forwards[1], forwards[2]);
+}
+
+// Many balls of the same material in one lit and three dark storeys: those of the dark ones do not count
+// where it is lit, and the other way round.
+TEST(Contrasts, AreThoseOfTheStorey) {
+  std::string text =
+      "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 20 20 20\n"
+      "void metal chrome 0 0 5 .9 .9 .9 1 0\nlamp sphere l 0 0 4 2 2 1.5 .3\n";
+  for (const double z : {0., 3., 6., 9., 12.})
+    text += fmt::format("wall polygon slab{0} 0 0 12 0 0 {0} 40 0 {0} 40 40 {0} 0 40 {0}\n", z);
+  for (const double z : {0., 3., 6., 9.})
+    for (int i = 0; i < 400; ++i)
+      text += fmt::format("chrome sphere s 0 0 4 {} {} {} .01\n", 1.5 + i % 20, 1.5 + i / 20, z + 1);
+  const SphereSetting setting(sceneOf(text));
+  const auto objects = findSpecialObjects(setting.scene, 1);
+  const SeenSources sources(setting.transport->prepared());
+  const Contrasts contrasts(setting.tracing(), objects, sources);
+  ASSERT_EQ(contrasts.objects().size(), 1600u);
+  const std::vector<double> lit = deviationsFrom(V3d(3.2, 3.1, 1.3), contrasts);
+  const std::vector<double> dark = deviationsFrom(V3d(3.2, 3.1, 10.3), contrasts);
+  ASSERT_LT(lit.size(), 1600u);
+  ASSERT_LT(dark.size(), 1600u);
+  EXPECT_GT(lit[0], 0);
+  EXPECT_EQ(dark[0], 0);
 }
 
 }  // namespace
