@@ -43,12 +43,29 @@ std::vector<uint32_t> orderByPlace(size_t count, const PointOf& pointOf) {
   return order;
 }
 
+// Moves all[order[i]] to all[i], in place: new memory for millions of bytes takes longer than the moves.
 template <class T>
 void permute(std::vector<T>& all, std::span<const uint32_t> order) {
-  std::vector<T> sorted;
-  sorted.reserve(all.size());
-  for (const uint32_t i : order) sorted.push_back(std::move(all[i]));
-  all = std::move(sorted);
+  std::vector<bool> moved(all.size());
+  for (size_t first = 0; first < all.size(); ++first) {
+    if (moved[first]) continue;
+    T displaced = std::move(all[first]);
+    size_t to = first;
+    for (; order[to] != first; to = order[to]) {
+      all[to] = std::move(all[order[to]]);
+      moved[to] = true;
+    }
+    all[to] = std::move(displaced);
+    moved[to] = true;
+  }
+}
+
+// Clears a list and reserves memory for as many elements, times a factor.
+template <class T>
+void clearFor(double times, std::vector<T>& all) {
+  const auto expected = static_cast<size_t>(times * static_cast<double>(all.size()));
+  all.clear();
+  all.reserve(expected);
 }
 
 LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVertex::Way way, size_t batch) {
@@ -390,9 +407,11 @@ NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, u
     sum += length;
     met += length > 0;
   }
-  all_.clear();
-  arriving_.clear();
-  visible_.clear();
+  // A twentieth more than expected, so that hardly any list grows while all paths are sent.
+  const double times = 1.05 * static_cast<double>(paths) / static_cast<double>(std::max(tried, size_t(1)));
+  clearFor(times, all_);
+  clearFor(times, arriving_);
+  visible_.clearFor(times);
   const double meanLength = met > 0 ? sum / static_cast<double>(met) : 1;
   return {tuning::LightVertices::kWidth * meanLength, meanLength};
 }
@@ -403,6 +422,8 @@ void LightVertices::sort() {
   permute(arriving_, clustered.vertices);
   ends_ = std::move(clustered.ends);
 }
+
+void VisibleVertices::clearFor(double times) { rsphere::clearFor(times, all_); }
 
 void VisibleVertices::sort(const PreparedScene& prepared) {
   permute(all_, orderByPlace(all_.size(), [&](size_t i) { return all_[i].vertex.point(); }));

@@ -61,7 +61,8 @@ struct VisibleVertex {
 class VisibleVertices {
  public:
   void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
-  void clear() { all_.clear(); }
+  // Removes all, and reserves memory for as many, times a factor.
+  void clearFor(double times);
   // Call this once, after the last vertex has been added.
   void sort(const PreparedScene& prepared);
 
