@@ -93,7 +93,8 @@ std::vector<Box3d> boxesOf(const Scene& scene, std::span<const SpecialObject> ob
 }
 
 // A region of points shares its measurements. The region around a point is as wide as possible while at most
-// this number of times as many objects can be seen from it as from the point.
+// this number of times as many objects can be seen from it as from the point. With 1, 4 and 16, four means in
+// a tower take the same time within noise; more points than these would share fewer measurements with 1.
 constexpr size_t kWider = 2;
 
 }  // namespace
@@ -125,12 +126,11 @@ Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject
               kFewHidden) {
   if (objects.empty() && !tracing.aims.openings) return;
   const Scene& scene = tracing.prepared.scene();
-  for (size_t i = 0; i < objects_.size(); ++i)
-    if (i == 0)
-      alikeOf_.push_back(0);
-    else
-      alikeOf_.push_back(alikeOf_.back() +
-                         (modifierOf(scene, objects_[i]) != modifierOf(scene, objects_[i - 1])));
+  uint32_t number = 0;
+  for (size_t i = 0; i < objects_.size(); ++i) {
+    if (i > 0 && modifierOf(scene, objects_[i]) != modifierOf(scene, objects_[i - 1])) ++number;
+    alikeOf_.push_back(number);
+  }
   if (tracing.pools) return;
   PathTracer tracer = tracing_.tracer();
   baseError_ = measureTypicalView(scene, sources, tracing.prepared.options().sampling, tracer).baseError;

@@ -107,7 +107,7 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
     : prepared_(prepared),
       balls_(ballsAmong(prepared.scene(), objects)),
-      // In buildings, also few balls are worth it, because the sources of each are looked up.
+      // In buildings, this pays for a few balls, too, because the sources that light each are looked up.
       hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_),
               prepared.lights().hidden().divides() ? 1 : kFewHidden) {
   const Scene& scene = prepared.scene();

@@ -22,7 +22,8 @@ constexpr double kWideJitter = .5;
 // Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
-// Up to this number of sources, a glimpse samples them all. Insensitive.
+// Up to this number of sources, a glimpse samples them all. With 32, sensors in a tower with stairwells start
+// in 3.4 instead of .9 s; with 512, in one without, in 1.0 instead of .6 s.
 constexpr size_t kFewOfGlimpse = 128;
 
 // Kinds of sources. The visibility of each is estimated separately, because their causes of occlusion differ.
@@ -180,8 +181,8 @@ void DirectLight::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) scratch_.order[before[i]] = i;
 }
 
-// The sources that may light a place. Few of the places that glimpses see are seen again, so that they take
-// hidden sources into account rather than divide regions down to the last (HiddenBoxes).
+// The sources that may light a place. Few of the places that glimpses see are seen again: to sample a few
+// hidden sources there takes less time than to divide regions until none is left (HiddenBoxes).
 std::span<const uint32_t> DirectLight::notHiddenFrom(const V3d& point, const V3d& front) const {
   const HiddenBoxes& hidden = t_.lights().hidden();
   if (!state_.glimpses) return hidden.notHiddenFrom(point, front);
