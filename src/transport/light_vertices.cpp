@@ -344,7 +344,7 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
 }
 
 double LightVertices::shadowRaysTo(const VisibleVertex& v) const {
-  std::atomic<double>& known = visible_.shadowRays_[static_cast<size_t>(&v - visible_.all_.data())];
+  std::atomic<double>& known = visible_.shadowRaysTo(v);
   if (const double rays = known.load(std::memory_order_relaxed); rays > 0) return rays;
   std::span<const uint32_t> sources;
   std::vector<double> weights;

@@ -70,19 +70,20 @@ class VisibleVertices {
   // Calls use(begin, end) for ascending index ranges of all(). They contain all vertices except some that are
   // hidden from the point.
   void from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
+  // Where LightVertices::shadowRaysTo() keeps its result for one of all(); 0: not computed yet.
+  std::atomic<double>& shadowRaysTo(const VisibleVertex& v) const {
+    return shadowRays_[static_cast<size_t>(&v - all_.data())];
+  }
 
  private:
   static constexpr size_t kBlock = 256;
 
-  friend class LightVertices;
-
   std::vector<VisibleVertex> all_;
   std::optional<HiddenBoxes> hidden_;  // boxes around blocks of all_; empty if little is hidden
-  // LightVertices::shadowRaysTo(), for each of all_; 0: not computed yet.
   mutable std::vector<std::atomic<double>> shadowRays_;
 };
 
-// Shared by all threads; constant.
+// Shared by all threads; constant, but for what is computed when it is first asked for.
 class LightVertices {
  public:
   // Sends paths from the sources, distributed as in `emission`. Keeps a reference to the surfaces. outdoors:
