@@ -23,13 +23,21 @@ constexpr size_t kMostFound = 16384;
 // does not block it, and a ray whose cosine to a plane is at most kSamePlace misses the plane.
 double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
 
-std::array<V3d, 8> cornersOf(const Box3d& box) {
-  std::array<V3d, 8> corners;
-  for (unsigned i = 0; i < 8; ++i)
-    corners[i] = {(i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y,
-                  (i & 4 ? box.max : box.min).z};
-  return corners;
-}
+// The corners of a box, and how far they lie in front of the plane of a blocker (world units). If the blocker
+// is perpendicular to an axis, the first four lie in one plane parallel to it, the others opposite of them.
+struct Corners {
+  std::array<V3d, 8> at;
+  std::array<double, 8> above;
+  Corners(const Box3d& box, const Blocker& blocker) {
+    const int axis = std::max(blocker.axis, 0), u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (size_t i = 0; i < 8; ++i) {
+      at[i][u] = (i & 1 ? box.max : box.min)[u];
+      at[i][v] = (i & 2 ? box.max : box.min)[v];
+      at[i][axis] = (i & 4 ? box.max : box.min)[axis];
+      above[i] = blocker.normal.dot(at[i]) - blocker.offset;
+    }
+  }
+};
 
 // Calls use() with the surfaces between two points, in the order of a ray, until it returns true. Returns
 // whether it has returned true.
@@ -127,15 +135,53 @@ const Blocker::Whole& Blockers::wholeOf(const Blocker& blocker) const {
 
 // The segments from one box to another, and what the search for a blocker has found out about them.
 struct Blockers::Way {
-  const Box3d& from;
-  const Box3d& to;
+  // Narrowed to what holes in the areas that were looked at leave.
+  Box3d from;
+  Box3d to;
   // Whether an area extends far enough to hide the box, but has a hole or a gap.
   bool seesHole = false;
   bool wasTried = false;  // whether a segment that misses a polygon has been traced
   bool isOpen = false;    // whether nothing blocks that segment, so that there is no blocker
 
   bool missesFirst() { return !std::exchange(wasTried, true); }
+  bool isHiddenBesides(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
 };
+
+// Narrows each box to what the other may see of it through the holes of an area. Returns whether that is
+// nothing. axis: perpendicular to the area; cuts: where segments between the corners of the boxes meet it.
+bool Blockers::Way::isHiddenBesides(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
+                                    double inset) {
+  Box3d all, open;
+  for (const V3d& cut : cuts) all.extendBy(cut);
+  for (Box3d hole : area.holes()) {
+    hole = {hole.min - V3d(inset), hole.max + V3d(inset)};
+    if (!hole.intersects(all)) continue;
+    for (int i = 0; i < 3; ++i) {
+      open.min[i] = std::min(open.min[i], std::max(hole.min[i], all.min[i]));
+      open.max[i] = std::max(open.max[i], std::min(hole.max[i], all.max[i]));
+    }
+  }
+  if (open.isEmpty()) return false;
+  const double plane = cuts.front()[axis];
+  const auto distances = [&](const Box3d& box) {
+    return std::minmax({std::abs(box.min[axis] - plane), std::abs(box.max[axis] - plane)});
+  };
+  const auto narrow = [&](Box3d& box, const Box3d& other) {
+    const auto [boxLeast, boxMost] = distances(box);
+    const auto [otherLeast, otherMost] = distances(other);
+    // The cut divides a segment at this fraction of its length, counted from the other box.
+    const double least = otherLeast / (otherLeast + boxMost), most = otherMost / (otherMost + boxLeast);
+    for (int i = 0; i < 3; ++i) {
+      if (i == axis) continue;
+      const double up = open.max[i] - other.min[i], down = open.min[i] - other.max[i];
+      box.max[i] = std::min(box.max[i], other.min[i] + up / (up > 0 ? least : most));
+      box.min[i] = std::max(box.min[i], other.max[i] + down / (down < 0 ? least : most));
+      if (box.min[i] > box.max[i]) return true;
+    }
+    return false;
+  };
+  return narrow(from, to) || narrow(to, from);
+}
 
 bool Blockers::isClear(const V3d& from, const V3d& to) const {
   V3d way = to - from;
@@ -151,47 +197,49 @@ bool Blockers::isClear(const V3d& from, const V3d& to) const {
 //
 // If a segment misses the polygon, looks whether anything blocks it before the area is looked up, which may
 // take long.
+//
+// Where it is not so because of holes, the boxes are narrowed, so that slabs whose holes are not above one
+// another hide a box together.
 bool Blockers::covers(const Blocker& blocker, Way& way) const {
-  const Box3d &from = way.from, &to = way.to;
+  const Box3d from = way.from, to = way.to;
   Box3d both = from;
   both.extendBy(to);
   const double margin = marginOver(both.size().length());
   const double apart = blocker.axis < 0 ? margin + kBeside * margin_ : margin;
   const double inset = margin + kBeside * margin_;
-  const std::array<V3d, 8> begins = cornersOf(from), ends = cornersOf(to);
-  std::array<double, 8> above, below;
-  for (size_t i = 0; i < 8; ++i) {
-    above[i] = blocker.normal.dot(begins[i]) - blocker.offset;
-    below[i] = blocker.offset - blocker.normal.dot(ends[i]);
-    if (above[i] < apart || below[i] < margin) return false;
-  }
+  const Corners begins(from, blocker), ends(to, blocker);
+  for (size_t i = 0; i < 8; ++i)
+    if (begins.above[i] < apart || -ends.above[i] < margin) return false;
   Box3d before = from;
-  std::array<V3d, 64> cuts;
+  std::array<V3d, 64> all;
+  size_t count = 0;
   bool single = blocker.edges > 0;
   const JoinedPolygons::Area* area = nullptr;
   for (size_t i = 0; i < 8; ++i)
     for (size_t j = 0; j < 8; ++j) {
-      const double t = above[i] / (above[i] + below[j]);
-      const V3d cut = begins[i] + t * (ends[j] - begins[i]);
+      // The segments from a rectangle to a parallel one meet a plane between them in a rectangle, whose
+      // corners are on the segments between corresponding corners.
+      if (blocker.axis >= 0 && i % 4 != j % 4) continue;
+      const V3d begin = begins.at[i], end = ends.at[j];
+      const V3d cut = begin + begins.above[i] / (begins.above[i] - ends.above[j]) * (end - begin);
       for (uint32_t e = 0; single && e < blocker.edges; ++e)
         single = !(blocker.inward[e].dot(cut) < blocker.least[e] + inset);
       if (!single && !area) {
-        if (way.missesFirst()) way.isOpen = isClear(begins[i], ends[j]);
+        if (way.missesFirst()) way.isOpen = isClear(begin, end);
         if (way.isOpen) return false;
         area = wholeOf(blocker).area;
         if (!area) return false;
       }
       if (!single && !area->mayContain(cut, inset)) return false;
       before.extendBy(cut);
-      cuts[8 * i + j] = cut;
+      all[count++] = cut;
     }
-  if (!single && !area->contains(cuts, inset)) {
-    way.seesHole = true;
-    return false;
-  }
-  for (const Box3d& box : tracer_.refracting())
-    if (before.intersects(box)) return false;
-  return true;
+  const std::span<const V3d> cuts = std::span(all).first(count);
+  const auto meets = [&](const Box3d& box) { return before.intersects(box); };
+  const bool covered = single || area->contains(cuts, inset);
+  way.seesHole = way.seesHole || !covered;
+  if (std::ranges::any_of(tracer_.refracting(), meets)) return false;
+  return covered || (blocker.axis >= 0 && way.isHiddenBesides(*area, blocker.axis, cuts, inset));
 }
 
 bool Blockers::anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const KnownBlocker&)> use) const {

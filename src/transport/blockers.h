@@ -4,7 +4,8 @@
 // A polygon hides a box from another if it intersects every segment between them. It is enough to test the
 // segments between their corners: the convex hull of the points where these intersect the polygon's plane
 // contains the intersections of all segments ("shaft culling", Haines and Wallace 1991). Polygons of one
-// plane that touch count as one.
+// plane that touch count as one. If it has a hole, only segments through the hole remain to be blocked by the
+// next polygon (portal sequences: Teller and Sequin 1991).
 #include <array>
 #include <cstdint>
 #include <memory>

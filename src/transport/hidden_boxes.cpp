@@ -21,6 +21,10 @@ constexpr int kMostInVain = 6;
 // first, but at most kMostUntested times.
 constexpr double kSameRegion = .99;
 constexpr int kMostUntested = 8;
+// A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in
+// it is this many times as far away as the nearest. With a million lamps below a bare floor, 340 were looked
+// at for each ray with 17, and 170 with 5, in the same time; without such divisions, about 100,000.
+constexpr double kSameDistance = 5;
 // Number of boxes that are examined to decide whether a region is divided.
 constexpr size_t kProbes = 32;
 // To decide whether to divide a region, only polygons are considered whose size times this factor is at most
@@ -77,8 +81,6 @@ HiddenBoxes::HiddenBoxes(HiddenBoxes&&) noexcept = default;
 HiddenBoxes::HiddenBoxes(std::shared_ptr<const Blockers> blockers, std::vector<Box3d> boxes, size_t few)
     : blockers_(std::move(blockers)), tree_(std::move(boxes)), all_(tree_.boxes.size()) {
   std::iota(all_.begin(), all_.end(), 0);
-  for (const uint32_t i : all_)
-    if (tree_.boxes[i].isEmpty()) never_.push_back(i);
   const Box3d& bounds = blockers_->bounds();
   if (tree_.order.size() <= few || bounds.isEmpty()) return;
   root_ = std::make_unique<Region>();
@@ -100,7 +102,7 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
     std::span<const uint32_t> places;
   };
   const bool fromBothEnds = tree_.order.size() <= kFewFromBothEnds;
-  std::vector<uint32_t> visible;
+  std::vector<std::span<const uint32_t>> visible;
   // Large groups are tested first. Groups that remain after kMostTests tests are treated as visible.
   std::vector<Some> all{{0, places}};
   for (size_t i = 0; i < all.size(); ++i) {
@@ -109,15 +111,17 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
     const bool done = i >= kMostTests;
     if (some.empty() || (!done && blockers_->hides(region, node.box, known, fromBothEnds))) continue;
     if (done || node.second == 0) {
-      visible.insert(visible.end(), some.begin(), some.end());
+      visible.push_back(some);
       continue;
     }
     const auto middle = std::lower_bound(some.begin(), some.end(), tree_.nodes[node.second].begin);
     all.push_back({index + 1, {some.begin(), middle}});
     all.push_back({node.second, {middle, some.end()}});
   }
-  std::sort(visible.begin(), visible.end());
-  return visible;
+  std::ranges::sort(visible, {}, [](const auto& some) { return some.front(); });
+  std::vector<uint32_t> joined;
+  for (const auto& some : visible) joined.insert(joined.end(), some.begin(), some.end());
+  return joined;
 }
 
 // The polygons that hide boxes from places in a region, each with the number of boxes that it hides, in
@@ -153,8 +157,10 @@ std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Regio
 
 // Decides whether and where a region is divided. If a polygon extends across most of the region, the region
 // is divided along a plane next to the polygon, so that points of the polygon get a thin region. If the
-// polygon lies outside the region, it is divided along planes just inside the polygon's edges. Without such a
-// polygon, it is divided in the middle.
+// polygon lies outside the region, it is divided along planes just inside the polygon's edges. What is cut
+// off there is a strip with the points of walls, such as those around a floor. The higher such a point is,
+// the more of what is below is hidden by the floor: a strip is divided by its distance from the polygon.
+// Without such a polygon, a region is divided in the middle.
 void HiddenBoxes::divide(Region& region) const {
   if (region.places->size() <= kLeastHidden) return;
   const auto found = blockersIn(region);
@@ -170,13 +176,30 @@ void HiddenBoxes::divide(Region& region) const {
     }
     return false;
   };
+  const double strip = (1 + Blockers::kBeside) * margin;
+  const auto isAtEdge = [&](int axis, const Box3d& polygon) {
+    for (int i = 0; i < 3; ++i)
+      if (i != axis && (box.max[i] < polygon.min[i] + 2 * strip || box.min[i] > polygon.max[i] - 2 * strip))
+        return true;
+    return false;
+  };
+  const auto divideAwayFrom = [&](int axis, const Box3d& polygon) {
+    const double below = box.min[axis] - polygon.max[axis], above = polygon.min[axis] - box.max[axis];
+    const double near = std::max(below, above);
+    if (!(near > 0 && near + box.size()[axis] > kSameDistance * near)) return false;
+    const double apart = std::sqrt(near * (near + box.size()[axis]));
+    region.axis = axis;
+    region.at = below > 0 ? polygon.max[axis] + apart : polygon.min[axis] - apart;
+    return true;
+  };
   for (const auto& [blocker, count] : found) {
     const int axis = blocker->axis;
     const Box3d& whole = blockers_->wholeOf(*blocker).box;
     if (axis < 0 || shareAcross(box, whole, axis) < .5) continue;
     if (divideAt(axis, whole, margin)) return;
     for (int other = 0; other < 3; ++other)
-      if (other != axis && divideAt(other, whole, (1 + Blockers::kBeside) * margin)) return;
+      if (other != axis && divideAt(other, whole, strip)) return;
+    if (isAtEdge(axis, whole) && divideAwayFrom(axis, whole)) return;
   }
   const auto longest = static_cast<int>(box.majorAxis());
   if (box.size()[longest] < 4 * margin) return;
@@ -215,9 +238,12 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
 void HiddenBoxes::findVisible(Region& region) const {
   std::vector<uint32_t> places = visibleFrom(region.box, *region.places, region.blockers);
   if (places.size() < region.places->size()) {
-    std::vector<uint32_t> visible = never_;
-    for (const uint32_t place : places) visible.push_back(tree_.order[place]);
-    std::sort(visible.begin(), visible.end());
+    std::vector<bool> hidden(all_.size());
+    for (const uint32_t place : *region.places) hidden[tree_.order[place]] = true;
+    for (const uint32_t place : places) hidden[tree_.order[place]] = false;
+    std::vector<uint32_t> visible;
+    for (const uint32_t i : *region.visible)
+      if (!hidden[i]) visible.push_back(i);
     region.visible = std::make_shared<const std::vector<uint32_t>>(std::move(visible));
     region.places = std::make_shared<const std::vector<uint32_t>>(std::move(places));
   }

@@ -66,7 +66,6 @@ class HiddenBoxes {
   std::shared_ptr<const Blockers> blockers_;
   BoxTree tree_;
   std::vector<uint32_t> all_;     // indices of all boxes
-  std::vector<uint32_t> never_;   // indices of the empty boxes
   std::unique_ptr<Region> root_;  // null if there are too few boxes
   std::unique_ptr<std::mutex> dividing_ = std::make_unique<std::mutex>();
 };

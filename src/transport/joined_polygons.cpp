@@ -29,6 +29,9 @@ constexpr size_t kMostCompared = 1024;
 // rounding of coordinates, and the tracer lets no ray pass between such polygons (meetsInside()).
 constexpr double kTouching = 16 * std::numeric_limits<double>::epsilon();
 
+// Distance from an edge at which it is decided what lies beside it, relative to that of polygons that touch.
+constexpr double kBeside = 8;
+
 // A polygon's normal, or its opposite: the same one for all polygons of a plane.
 double signOf(const V3d& normal) {
   for (int i = 0; i < 3; ++i)
@@ -103,6 +106,30 @@ class Octagon {
   std::array<double, 4> most_{-kInfinite, -kInfinite, -kInfinite, -kInfinite};
 };
 
+// Numbers that are joined in groups; first() of a group is its smallest number.
+class Groups {
+ public:
+  explicit Groups(size_t size) : joinedTo_(size) { std::iota(joinedTo_.begin(), joinedTo_.end(), 0); }
+  uint32_t first(uint32_t i) {
+    while (joinedTo_[i] != i) i = joinedTo_[i] = joinedTo_[joinedTo_[i]];
+    return i;
+  }
+  void join(uint32_t i, uint32_t j) {
+    const uint32_t a = first(i), b = first(j);
+    joinedTo_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<uint32_t> joinedTo_;
+};
+
+// A distance that is larger than any between polygons that touch. box: around all of them
+double touchingIn(const Box3d& box) {
+  double touching = 0;
+  for (int i = 0; i < 3; ++i) touching += kTouching * std::max(std::abs(box.min[i]), std::abs(box.max[i]));
+  return touching;
+}
+
 Box3d around(const V3d& a, const V3d& b, double margin) {
   Box3d box(a);
   box.extendBy(b);
@@ -136,15 +163,14 @@ class JoinedPolygons::Joining {
   // polygons: in the plane through the first of them with this normal. They all stop shadow rays from the
   // same side.
   Joining(const Scene& scene, const V3d& normal, std::vector<SurfaceId> polygons)
-      : scene_(scene), normal_(normal), polygons_(std::move(polygons)), joinedTo_(polygons_.size()) {
-    std::iota(joinedTo_.begin(), joinedTo_.end(), 0);
+      : scene_(scene), normal_(normal), polygons_(std::move(polygons)), joined_(polygons_.size()) {
     std::vector<Box3d> boxes;
     Box3d all;
     for (const SurfaceId id : polygons_) {
       boxes.push_back(bounds(polygon(id), scene_.vertices));
       all.extendBy(boxes.back());
     }
-    for (int i = 0; i < 3; ++i) touching_ += kTouching * std::max(std::abs(all.min[i]), std::abs(all.max[i]));
+    touching_ = touchingIn(all);
     for (Box3d& box : boxes) box = {box.min - V3d(beside()), box.max + V3d(beside())};
     tree_ = BoxTree(std::move(boxes));
   }
@@ -162,7 +188,7 @@ class JoinedPolygons::Joining {
     Areas result;
     std::vector<size_t> areaOf(polygons_.size());
     for (uint32_t i = 0; i < polygons_.size(); ++i) {
-      const uint32_t first = firstOf(i);
+      const uint32_t first = joined_.first(i);
       if (first == i) {
         areaOf[i] = result.areas.size();
         result.areas.emplace_back();
@@ -182,13 +208,7 @@ class JoinedPolygons::Joining {
     const Polygon& p = polygon(polygons_[i]);
     return std::span(scene_.vertices).subspan(p.firstVertex, p.vertices);
   }
-  // Distance from an edge at which it is decided what lies beside it.
-  double beside() const { return 8 * touching_; }
-
-  uint32_t firstOf(uint32_t i) {
-    while (joinedTo_[i] != i) i = joinedTo_[i] = joinedTo_[joinedTo_[i]];
-    return i;
-  }
+  double beside() const { return kBeside * touching_; }
 
   // Divides an edge where other edges meet it, and adds those parts to the outline that have opaque polygons
   // on one side only.
@@ -227,8 +247,7 @@ class JoinedPolygons::Joining {
         tree_.any(Box3d(point), [&](uint32_t i) {
           if (!inside(polygon(polygons_[i]), scene_.vertices, point)) return false;
           opaque[side] = true;
-          const uint32_t a = firstOf(index), b = firstOf(i);
-          joinedTo_[std::max(a, b)] = std::min(a, b);
+          joined_.join(index, i);
           return false;
         });
       }
@@ -250,12 +269,46 @@ class JoinedPolygons::Joining {
     boxes.clear();
     for (const Area::Segment& s : area.outline_) boxes.push_back(around(s.begin, s.end, beside()));
     area.outlineTree_ = BoxTree(std::move(boxes));
+    findHoles(area);
+  }
+
+  // Parts of the outline that touch belong to the same hole. An area with a hole that touches its edge is not
+  // rectangular.
+  void findHoles(Area& area) const {
+    const auto& boxes = area.outlineTree_.boxes;
+    Groups touching(boxes.size());
+    const auto isAt = [&](int i, double edge, const Box3d& box) {
+      return box.min[i] > edge - 2 * beside() && box.max[i] < edge + 2 * beside();
+    };
+    const auto isOnEdge = [&](const Box3d& box) {
+      for (int i = 0; i < 3; ++i)
+        if (i != area.axis_ && (isAt(i, area.box_.min[i], box) || isAt(i, area.box_.max[i], box)))
+          return true;
+      return false;
+    };
+    const auto count = static_cast<uint32_t>(boxes.size());
+    std::vector<bool> onEdge(count);
+    for (uint32_t i = 0; i < count; ++i) onEdge[i] = isOnEdge(boxes[i]);
+    std::vector<Box3d> holes(count);
+    for (uint32_t i = 0; i < count; ++i) {
+      if (onEdge[i]) continue;
+      bool meetsEdge = false;
+      area.outlineTree_.any(boxes[i], [&](uint32_t other) {
+        touching.join(i, other);
+        return meetsEdge = onEdge[other];
+      });
+      if (meetsEdge) return;
+    }
+    for (uint32_t i = 0; i < count; ++i)
+      if (!onEdge[i]) holes[touching.first(i)].extendBy(boxes[i]);
+    std::erase_if(holes, [](const Box3d& box) { return box.isEmpty(); });
+    area.holes_ = std::move(holes);
   }
 
   const Scene& scene_;
   const V3d normal_;
   std::vector<SurfaceId> polygons_;
-  std::vector<uint32_t> joinedTo_;
+  Groups joined_;
   double touching_ = 0;  // world units
   size_t compared_ = 0;  // number of edges
   BoxTree tree_;         // of the polygons' boxes
@@ -281,6 +334,53 @@ void JoinedPolygons::sort() const {
   });
 }
 
+// The polygons of a plane that stop shadow rays from one side of it. side: 1 or -1, as in areaOf().
+JoinedPolygons::Plane JoinedPolygons::groupsOf(std::span<const InPlane> plane, double side) const {
+  const Surface firstSurface = scene_.surfaces[plane.front().polygon];
+  const Polygon& first = *firstSurface.shape.as<Polygon>();
+  std::vector<SurfaceId> polygons;
+  std::vector<Box3d> boxes;
+  Box3d all;
+  for (const InPlane& one : plane) {
+    const Surface surface = scene_.surfaces[one.polygon];
+    const Polygon& polygon = *surface.shape.as<Polygon>();
+    if (!tracer_.stopsShadows(one.polygon, side * signOf(polygon.normal) > 0)) continue;
+    bool same = true;
+    for (const V3d& v : std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices)) {
+      const double size = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+      same = same && std::abs(first.normal.dot(v) - first.offset) <= kTouching * size;
+    }
+    if (!same) continue;
+    polygons.push_back(one.polygon);
+    boxes.push_back(bounds(polygon, scene_.vertices));
+    all.extendBy(boxes.back());
+  }
+  const V3d near(kBeside * touchingIn(all));
+  for (Box3d& box : boxes) box = {box.min - near, box.max + near};
+  Plane result;
+  const BoxTree tree(std::move(boxes));
+  Groups joined(polygons.size());
+  size_t compared = 0;
+  for (uint32_t i = 0; i < polygons.size(); ++i) {
+    tree.any(tree.boxes[i], [&](uint32_t other) {
+      joined.join(i, other);
+      ++compared;
+      return false;
+    });
+    if (compared > kMostCompared * polygons.size()) return {};
+  }
+  for (uint32_t i = 0; i < polygons.size(); ++i) {
+    const uint32_t leader = joined.first(i);
+    if (leader == i) result.groups.emplace_back();
+    const size_t group = leader == i ? result.groups.size() - 1
+                                     : result.groupOf[static_cast<uint32_t>(polygons[leader].index())];
+    result.groupOf[static_cast<uint32_t>(polygons[i].index())] = group;
+    result.groups[group].push_back(polygons[i]);
+  }
+  result.areas.resize(result.groups.size());
+  return result;
+}
+
 const JoinedPolygons::Area* JoinedPolygons::areaOf(SurfaceId id, bool front) const {
   std::call_once(sorted_, [&] { sort(); });
   const Surface surface = scene_.surfaces[id];
@@ -292,25 +392,20 @@ const JoinedPolygons::Area* JoinedPolygons::areaOf(SurfaceId id, bool front) con
   if (begin == end || (end - begin == 1 && asked.vertices <= 4)) return nullptr;
   const double side = (front ? 1 : -1) * signOf(asked.normal);  // 1: seen from where the normal points
   const std::lock_guard lock(joining_);
-  auto& areas = areas_[plane ^ (side > 0 ? 1 : 0)];
+  auto& known = planes_[plane ^ (side > 0 ? 1 : 0)];
+  if (!known) known = std::make_unique<Plane>(groupsOf({begin, end}, side));
+  const auto index = static_cast<uint32_t>(id.index());
+  const auto group = known->groupOf.find(index);
+  if (group == known->groupOf.end()) return nullptr;
+  const std::vector<SurfaceId>& polygons = known->groups[group->second];
+  if (polygons.size() == 1 && asked.vertices <= 4) return nullptr;
+  auto& areas = known->areas[group->second];
   if (!areas) {
-    const Surface firstSurface = scene_.surfaces[begin->polygon];
-    const Polygon& first = *firstSurface.shape.as<Polygon>();
-    std::vector<SurfaceId> polygons;
-    for (auto i = begin; i != end; ++i) {
-      const Surface other = scene_.surfaces[i->polygon];
-      const Polygon& polygon = *other.shape.as<Polygon>();
-      if (!tracer_.stopsShadows(i->polygon, side * signOf(polygon.normal) > 0)) continue;
-      bool same = true;
-      for (const V3d& v : std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices)) {
-        const double size = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-        same = same && std::abs(first.normal.dot(v) - first.offset) <= kTouching * size;
-      }
-      if (same) polygons.push_back(i->polygon);
-    }
-    areas = std::make_unique<const Areas>(Joining(scene_, first.normal, std::move(polygons)).find());
+    const Surface surfaceOfFirst = scene_.surfaces[begin->polygon];
+    const V3d normal = surfaceOfFirst.shape.as<Polygon>()->normal;
+    areas = std::make_unique<const Areas>(Joining(scene_, normal, polygons).find());
   }
-  const auto found = areas->areaOf.find(static_cast<uint32_t>(id.index()));
+  const auto found = areas->areaOf.find(index);
   return found == areas->areaOf.end() ? nullptr : &areas->areas[found->second];
 }
 

@@ -33,6 +33,8 @@ class JoinedPolygons {
     // Whether the convex hull of points in the area's plane lies within the area, at least `margin` away from
     // its outline (world units).
     bool contains(std::span<const V3d> points, double margin) const;
+    // Boxes around the holes in a rectangular area. Empty if there are none, or if it is not rectangular.
+    const std::vector<Box3d>& holes() const { return holes_; }
 
    private:
     friend class JoinedPolygons;
@@ -43,6 +45,7 @@ class JoinedPolygons {
     int axis_ = 2;  // of the largest component of the plane's normal
     Box3d box_{};
     std::vector<Segment> outline_;
+    std::vector<Box3d> holes_;
     BoxTree outlineTree_;
     std::vector<SurfaceId> polygons_;
     BoxTree polygonTree_;
@@ -53,9 +56,9 @@ class JoinedPolygons {
   ~JoinedPolygons();
 
   // The area of all polygons that stop shadow rays from the side in front of this polygon (front), or behind
-  // it, and that are connected to it. Null if no other polygon lies in its plane, unless the polygon may be
-  // concave; also null for polygons that are not quite plane. Only for polygons of the scene itself. May be
-  // called from any thread; the result is valid as long as this object.
+  // it, and that are connected to it. Null if no other polygon of its plane touches the box around it, unless
+  // the polygon may be concave; also null for polygons that are not quite plane. Only for polygons of the
+  // scene itself. May be called from any thread; the result is valid as long as this object.
   const Area* areaOf(SurfaceId polygon, bool front) const;
 
  private:
@@ -64,21 +67,29 @@ class JoinedPolygons {
     uint64_t plane;
     SurfaceId polygon;
   };
-  // The areas in a plane that are seen from one side of it.
+  // The areas of some polygons in a plane that are seen from one side of it.
   struct Areas {
     std::vector<Area> areas;
     std::unordered_map<uint32_t, size_t> areaOf;  // by index of the polygon
   };
+  // The same for the whole plane. Polygons whose boxes touch are in the same group, and only the areas of
+  // groups that are asked for are found: in a tall building, surfaces of all storeys lie in one plane.
+  struct Plane {
+    std::vector<std::vector<SurfaceId>> groups;
+    std::vector<std::unique_ptr<const Areas>> areas;  // of each group, null if not yet found
+    std::unordered_map<uint32_t, size_t> groupOf;     // by index of the polygon
+  };
   class Joining;
 
   void sort() const;
+  Plane groupsOf(std::span<const InPlane> plane, double side) const;
 
   const Scene& scene_;
   const Tracer& tracer_;
   mutable std::once_flag sorted_;
   mutable std::vector<InPlane> polygons_;  // in ascending order
   mutable std::mutex joining_;
-  mutable std::unordered_map<uint64_t, std::unique_ptr<const Areas>> areas_;
+  mutable std::unordered_map<uint64_t, std::unique_ptr<Plane>> planes_;
 };
 
 }  // namespace rsphere

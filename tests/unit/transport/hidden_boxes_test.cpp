@@ -110,10 +110,13 @@ std::vector<Box3d> lamps() {
 }
 
 struct Building {
-  explicit Building(const std::string& text) : scene(sceneOf(text)), tracer(scene, true) {}
+  explicit Building(const std::string& text, std::vector<Box3d> boxes = lamps())
+      : scene(sceneOf(text)),
+        tracer(scene, true),
+        hidden(std::make_shared<const Blockers>(scene, tracer), std::move(boxes), 8) {}
   Scene scene;
   Tracer tracer;
-  HiddenBoxes hidden{std::make_shared<const Blockers>(scene, tracer), lamps(), 8};
+  HiddenBoxes hidden;
 
   bool hides(const Box3d& from, const Box3d& to) const {
     std::vector<KnownBlocker> known;
@@ -226,6 +229,81 @@ TEST(HiddenBoxes, SlabsWithAHoleHideTheRest) {
     EXPECT_EQ(all.arrived, 0);
     EXPECT_GT(all.hidden, 400 * .5 * (kStoreys - 1) * kLamps);
   }
+}
+
+// Points of walls lie at the edge of the floor, which hides lamps below it from all but those next to it.
+TEST(HiddenBoxes, AFloorHidesLampsFromTheWallsAroundIt) {
+  Random random(3);
+  std::vector<Box3d> boxes;
+  for (int i = 0; i < 2000; ++i) boxes.emplace_back(placeIn({{.1, .1, -2}, {3.9, 2.9, -.5}}, random));
+  const auto seenFrom = [&](const std::string& floor, const V3d& point, const V3d& front) {
+    const Building b("void plastic wall 0 0 5 .6 .6 .6 0 0\n" + floor +
+                         "wall polygon south 0 0 12 0 0 0 0 0 3 4 0 3 4 0 0\n"
+                         "wall polygon east 0 0 12 4 0 0 4 0 3 4 3 3 4 3 0\n",
+                     boxes);
+    return b.hidden.notHiddenFrom(point, front).size();
+  };
+  const std::string floor = "wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n";
+  const std::string half = "wall polygon floor 0 0 12 0 0 0 2 0 0 2 3 0 0 3 0\n";
+  for (const double z : {.05, .4, 2.9}) {
+    EXPECT_EQ(seenFrom(floor, {1.3, 0, z}, {0, 1, 0}), 0) << z;
+    EXPECT_EQ(seenFrom(floor, {4, 2.2, z}, {-1, 0, 0}), 0) << z;
+    EXPECT_GT(seenFrom(half, {4, 2.2, z}, {-1, 0, 0}), 500) << z;
+  }
+}
+
+// A slab of four polygons around a rectangular hole.
+std::string around(const Box3d& hole, double z) {
+  const auto [x0, y0, unused0] = std::array{hole.min.x, hole.min.y, 0.};
+  const auto [x1, y1, unused1] = std::array{hole.max.x, hole.max.y, 0.};
+  return rectangle("wall", 0, 0, 4, y0, z, true) + rectangle("wall", 0, y1, 4, 3, z, true) +
+         rectangle("wall", 0, y0, x0, y1, z, true) + rectangle("wall", x1, y0, 4, y1, z, true);
+}
+
+// Light that passes the hole of one slab does not pass that of the other.
+TEST(HiddenBoxes, SlabsWithHolesHideTogether) {
+  const Box3d corner({.4, .4, 0}, {.9, .9, 0}), opposite({3.1, 2.1, 0}, {3.6, 2.6, 0});
+  const Box3d below({.5, .5, 0}, {3.5, 2.5, 2}), above({.5, .5, 5}, {3.5, 2.5, 6});
+  const auto hides = [&](const Box3d& lower, const Box3d& upper, const std::string& more) {
+    const Building b("void plastic wall 0 0 5 .6 .6 .6 0 0\nvoid dielectric water 0 0 5 .9 .9 .9 1.33 0\n" +
+                     around(lower, 3) + around(upper, 4) + more);
+    return std::pair(b.hides(below, above), b.hides(above, below));
+  };
+  EXPECT_EQ(hides(corner, opposite, ""), std::pair(true, true));
+  EXPECT_EQ(hides(corner, corner, ""), std::pair(false, false));
+  EXPECT_EQ(hides(corner, opposite, "water sphere drop 0 0 4 2 1.5 3.5 .3\n"), std::pair(false, false));
+}
+
+// Boxes and slabs with holes at random: what is hidden is not reached by shadow rays.
+TEST(HiddenBoxes, NothingPassesTheHolesOfSlabsToWhatIsHidden) {
+  Random random(17);
+  const auto boxIn = [&](const Box3d& space) {
+    Box3d box(placeIn(space, random));
+    box.extendBy(placeIn(space, random));
+    return box;
+  };
+  int hidden = 0, reached = 0, together = 0;
+  for (int n = 0; n < 120; ++n) {
+    std::string text = "void plastic wall 0 0 5 .6 .6 .6 0 0\n";
+    for (const double z : {3., 4., 5.}) text += around(boxIn({{.3, .3, 0}, {3.7, 2.7, 0}}), z);
+    const Building b(text);
+    for (int k = 0; k < 10; ++k) {
+      const Box3d from = boxIn({{.2, .2, 0}, {3.8, 2.8, 2.9}}), to = boxIn({{.2, .2, 5.1}, {3.8, 2.8, 9}});
+      int arrived = 0;
+      for (int ray = 0; ray < 300; ++ray) {
+        const V3d begin = placeIn(from, random), way = placeIn(to, random) - begin;
+        arrived += b.tracer.shadow(begin, way.normalized(), way.length(), kNone) != Shadow::blocked;
+      }
+      const bool isHidden = b.hides(from, to);
+      EXPECT_EQ(isHidden, b.hides(to, from));
+      hidden += isHidden;
+      reached += isHidden && arrived > 0;
+      together += !isHidden && arrived == 0;
+    }
+  }
+  EXPECT_EQ(reached, 0);
+  EXPECT_GT(hidden, 300);
+  EXPECT_LT(together, 200) << "hidden, but not known to be";
 }
 
 // Whatever was asked before, and in how many threads.

@@ -50,11 +50,34 @@ TEST(JoinedPolygons, TouchingSquaresAreOneArea) {
 }
 
 TEST(JoinedPolygons, WhatIsApartIsNotJoined) {
-  EXPECT_EQ(Panels(panel(0, 0) + panel(1.00001, 0)).first()->size(), 1) << "a gap";
+  EXPECT_FALSE(Panels(panel(0, 0) + panel(1.00001, 0)).first()) << "a gap";
   EXPECT_EQ(Panels(panel(0, 0) + panel(1, 1)).first()->size(), 1) << "a corner alone";
   EXPECT_FALSE(Panels(panel(0, 0) + panel(1, 0, 1, 1e-4)).first()) << "another plane";
   EXPECT_FALSE(Panels(panel(0, 0) + panel(1, 0, 1, 0, "pane")).first()) << "glass";
   EXPECT_FALSE(Panels(panel(0, 0)).first()) << "alone";
+}
+
+// Only of a rectangle, and only those in its inside.
+TEST(JoinedPolygons, HolesInRectangles) {
+  const auto without = [&](int missing, int also = -1) {
+    std::string text;
+    for (int i = 0; i < 16; ++i)
+      if (i != missing && i != also) text += panel(i % 4, i / 4);
+    return text;
+  };
+  const auto holesOf = [](const std::string& text) {
+    const Panels p(text);
+    return p.first() ? p.first()->holes() : std::vector<Box3d>();
+  };
+  EXPECT_TRUE(holesOf(without(-1)).empty());
+  const auto one = holesOf(without(5));
+  ASSERT_EQ(one.size(), 1);
+  EXPECT_NEAR((one[0].min - V3d(1, 1, 0)).length(), 0, 1e-9);
+  EXPECT_NEAR((one[0].max - V3d(2, 2, 0)).length(), 0, 1e-9);
+  EXPECT_EQ(holesOf(without(5, 6)).size(), 1) << "of two panels";
+  EXPECT_EQ(holesOf(without(5, 10)).size(), 1) << "of two panels that meet in a corner";
+  EXPECT_TRUE(holesOf(without(7)).empty()) << "at the edge";
+  EXPECT_TRUE(holesOf(without(15, 5)).empty()) << "a corner is missing";
 }
 
 // A gap or a pinhole between four squares.
