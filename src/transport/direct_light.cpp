@@ -25,6 +25,10 @@ constexpr uint32_t kFew = 24;
 // Up to this number of sources, a glimpse samples them all. With 32, sensors in a tower with stairwells start
 // in 3.4 instead of .9 s; with 512, in one without, in 1.0 instead of .6 s.
 constexpr size_t kFewOfGlimpse = 128;
+// Of many sources, up to the square root of their number times this. Where a stairwell of 160 storeys shows
+// a lamp of each, sensors start in 3.5 instead of 130 s; with 8, in 2.2 s, but without stairwells in 1.8
+// instead of 1.0 to 1.3 s.
+constexpr size_t kManyOfGlimpse = 5;
 
 // Kinds of sources. The visibility of each is estimated separately, because their causes of occlusion differ.
 constexpr int kSourceKinds = 3;
@@ -186,7 +190,9 @@ void DirectLight::rankByBrightness(uint32_t count) {
 std::span<const uint32_t> DirectLight::notHiddenFrom(const V3d& point, const V3d& front) const {
   const HiddenBoxes& hidden = t_.lights().hidden();
   if (!state_.glimpses) return hidden.notHiddenFrom(point, front);
-  return hidden.widestWhere(point, [](auto some) { return some.size() <= kFewOfGlimpse; });
+  const size_t most = kManyOfGlimpse * kManyOfGlimpse * hidden.all().size();
+  return hidden.widestWhere(
+      point, [&](auto some) { return some.size() <= kFewOfGlimpse || some.size() * some.size() <= most; });
 }
 
 // Fills the scratch memory with the unoccluded contributions of all source samples, except black ones.
