@@ -562,7 +562,7 @@ void addGatheringOptions(const Add& add) {
            "the irradiance cache and the coarse solution, and each path gathers indirect light again. This "
            "is faster for a few rays or points in a detailed scene: interpolation begins with up to "
            "seconds of work there, because no answer may depend on the number of records. For sensors "
-           "(-I), interpolation is faster from 3 to 20 sensors on in daylit rooms, and from 50 to 100 on "
+           "(-I), interpolation is faster from 3 to 10 sensors on in daylit rooms, and from 50 to 100 on "
            "with luminaires. In sphere mode, it is faster from 10 to 100 points on by daylight, and has "
            "no effect where light paths from lamps are used (see -Sw): the program then computes no "
            "coarse solution, because light paths take less time for the same error."});
@@ -589,7 +589,9 @@ void addGatheringOptions(const Add& add) {
        .paragraph =
            "Number of stratified rays over the hemisphere that gather indirect light. They start at the "
            "first diffuse surface of a path or, with interpolation, at each cache record. A path of less "
-           "weight gathers with fewer rays, a cache record always with all of them. The noise falls "
+           "weight gathers with fewer rays. A cache record gathers with all of them, or with 7.5 / -aa^2 if "
+           "that is fewer and shadow rays find all light (lamps alone, without glow), but at least with half "
+           "of them: its noise is then no larger than the error that -aa allows. The noise falls "
            "approximately with the square root of their number. 0 disables indirect light."});
   add({.name = "-as",
        .arguments = "N",
@@ -601,7 +603,7 @@ void addGatheringOptions(const Add& add) {
        .paragraph =
            "Number of rays that are added to those of -ad. All of them together are stratified over the "
            "hemisphere. Unlike in rtrace, the directions of these rays do not depend on the light found by "
-           "other rays. With interpolation (-aa above 0), a sensor of -I adds up to eight times as many "
+           "other rays. With interpolation (-aa above 0), a sensor of -I adds up to 24 times as many "
            "where its gather is noisy, as behind blinds and below skylights in shafts: until the estimated "
            "standard error is a twelfth of -aa. The noise of each half of the rays decides how many are "
            "added to the other half, which adds no bias. 0 adds none."});

@@ -80,20 +80,23 @@ CoarseSolution::~CoarseSolution() = default;
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
   const double accuracy = std::max(options.accuracy / kUsualAccuracy, 1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
+  const double far = options.patchesAtFirst ? tuning::CoarseSolution::kFarPatchAtFirst
+                                            : tuning::CoarseSolution::kFarPatch;
+  const double fewer = options.patchesAtFirst ? 1 : tuning::CoarseSolution::kFewerByLamps;
   if (!daylit)
     return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
             tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
-            tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kFarPatch,
-            tuning::CoarseSolution::kRays * options.rays,
+            tuning::CoarseSolution::kCoarserByLamps * far,
+            fewer * tuning::CoarseSolution::kRays * options.rays,
             options.patchesAtFirst ? 1. : 0.,
             1,
             options.patchesAtFirst
                 ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
                       tuning::CoarseSolution::kLeastRays
-                : tuning::CoarseSolution::kLeastRays};
+                : fewer * tuning::CoarseSolution::kLeastRays};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
-          tuning::CoarseSolution::kFarPatch,
+          far,
           tuning::CoarseSolution::kRays * options.rays * std::max(1., 1 / accuracy),
           0,
           tuning::CoarseSolution::kMoreRays,
@@ -172,7 +175,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return nullptr;
-  level = std::max(level, std::min(grid_.levelOf(tuning::CoarseSolution::kHalf * place.distance),
+  level = std::max(level, std::min(grid_.levelOf(tuning::CoarseSolution::kNear * place.distance),
                                    std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
   // Light varies across closely spaced strips such as slats, because neighbouring strips hide a part of each.

@@ -82,13 +82,22 @@ struct CoarseSolution {
   // With .6 (and .18 for kFarPatch, .1 for kLeastPatch), sensors near a window with blinds are 17% too
   // bright.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
-  // The side of a patch is at most this fraction of the viewing distance: derived. The edge of the patch is
-  // then at most 3% farther away than its middle, sqrt(1 + .25^2). Instead of using patches, paths are
-  // followed if the viewing distance or the extent of the surface is below this multiple of a patch's side.
-  // Insensitive.
+  // Paths are followed if the viewing distance or the extent of the surface is below this multiple of a
+  // patch's side. Insensitive.
   static constexpr double kHalf = .5;
-  // Sufficient side of a patch, relative to the viewing distance. Measured together with kSpacing.
-  RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .09);
+  // The side of a patch is at most this fraction of the viewing distance, down to the smallest patches of its
+  // surface. Measured for sensors between boards close above each other, by a lamp: with .5, they are .7% too
+  // dark, because wide patches do not follow the light in a gap; with .25 they are .1% too dark, in the same
+  // time (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  static constexpr double kNear = .25;
+  // Sufficient side of a patch, relative to the viewing distance. Measured with sensors in nine daylit rooms:
+  // with .09, they are 1.1% too bright below a shaft, because its light varies within a meter, and take up to
+  // twice the time, because places at different distances use patches of different levels
+  // (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .02);
+  // The same if patches are used at the first bounce. Spherical means average over more directions than a
+  // sensor does, and have the same error with .02 and .09; with .02 they take a fifth more time.
+  static constexpr double kFarPatchAtFirst = .09;
   // Lower bound on the side of a patch, relative to its surface's extent. Without it, patches in a corner,
   // where everything is near, would be divided without end. Measured together with kSpacing. With .02, the
   // time is three times as long.
@@ -103,6 +112,10 @@ struct CoarseSolution {
   // unless patches are used at the first bounce: 2 would then make the errors of spherical means three times
   // as large (measured).
   static constexpr int kCoarserLinksByLamps = 2;
+  // In the same scenes and with the same exception: factor on the rays of a patch. Measured in pictures of
+  // RADIANCE's cabin and office: with 1, they take 1.4 and 1.3 times the time for the same errors; with .25,
+  // sensors in a room with gaps have 1.4 times the error (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  static constexpr double kFewerByLamps = .5;
   // The smallest patches of a surface are chosen as if its extent were at most this fraction of the scene's
   // longest side, because rooms on a wide ground are much smaller than the ground. Chosen by experiment.
   // Reducing it by 30% makes sensors by sun take 65% more time; increasing it by 30% has no effect beyond
@@ -110,8 +123,8 @@ struct CoarseSolution {
   RSPHERE_TUNED(CoarseSolution, double, kWidestExtent, .4);
   // Number of patches across a narrow strip, such as a slat, where the patches of its level are wider than
   // the strip, but its surroundings require patches narrower than it. Measured: with 1, sensors near a window
-  // with blinds are 33% too bright.
-  RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 4);
+  // with blinds are 33% too bright; with 4, 8 and 16 they are 1.2%, .8% and .6% too bright.
+  RSPHERE_TUNED(CoarseSolution, int, kPartsAcross, 8);
   // One of the six sides of a ball, or a cone, is enclosed if the root mean square distance of the
   // surroundings is below kEnclosed times the radius at each of kEnclosedPlaces places on it. The threshold
   // separates two cases: shells with a gap of a third of the inner radius (ratio .47 in the middle), and a
@@ -130,11 +143,12 @@ struct CoarseSolution {
   // value. The number of rays is proportional to that share, which minimizes the noise for a given total
   // number. The share is about the patch's area divided by the square of the room's size. Outdoors, it is
   // reduced by the fraction of sky that the patch sees, and by the square of its distance from other
-  // surfaces. The value is the share of a square of 36 cm in a room of 4 m. Measured:
+  // surfaces. The value is the share of a square of 31 cm in a room of 4 m. Measured:
+  // - With .008, a room with a window has a fifth more noise, and a classroom takes a fifth less time.
   // - With .012, sunlit rooms have 15% more noise, and take a tenth less time.
   // - Using the patch's mean distance to its surroundings instead of the room's size gives patches below
   //   desks and in gaps so many rays that four daylit rooms take 1.3 to 3 times the time for the same error.
-  RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .008);
+  RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .006);
   // Upper bound on the number of rays of a patch, relative to the usual number; by lamps, it is 1. Measured:
   // with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and takes a
   // sixth more time.

@@ -32,17 +32,6 @@ const Smoothing kOfDirect{1, tuning::Pictures::kFinePasses, tuning::Pictures::kS
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
-// Whether shadow rays find all light. Daylight and glowing surfaces are found by indirect rays only.
-bool lampsAlone(const PreparedScene& prepared) {
-  for (const LightSource& light : prepared.lights().all())
-    if (light.isDistant()) return false;
-  const auto& modifiers = prepared.scene().modifiers;
-  return std::none_of(modifiers.begin(), modifiers.end(), [](const Modifier& modifier) {
-    const auto* material = std::get_if<Material>(&modifier.content);
-    return material && std::holds_alternative<Glow>(*material);
-  });
-}
-
 // The seeds of a picture's random numbers, each named after its use.
 class PictureStreams {
  public:
@@ -202,8 +191,8 @@ class Painter {
         tracer_(point, transport),
         small_(smallSources(tracer_.paths(), map, sources, streams_.smallSources())),
         sampling_(transport.prepared().options().sampling),
-        sharing_(lampsAlone(transport.prepared()) ? tuning::Pictures::kSharingByLamps
-                                                  : tuning::Pictures::kSharing) {}
+        sharing_(isLitByLamps(transport.prepared()) ? tuning::Pictures::kSharingByLamps
+                                                    : tuning::Pictures::kSharing) {}
 
   Raster draw(bool forScreen);
 

@@ -78,6 +78,7 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));
   // Without a distant source, openings only transmit the light of lamps from one room to another.
   const bool isDaylit = aims.openings && !prepared.lights().distant().empty();
+  caches.byLamps = isLitByLamps(prepared);
   if (o.ambientBounces > 1)
     caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, fieldOptions(o),
                                                      isDaylit ? aims.openings->depth() : 0);

@@ -21,6 +21,8 @@ struct Caches {
   // Final gathers that fill the caches aim some of their rays at these places. All tracers that use the
   // caches share them.
   Aims aims;
+  // isLitByLamps()
+  bool byLamps = false;
 };
 
 // Makes the caches that the options require, and loads the light of the ambient file (-af). Keeps references

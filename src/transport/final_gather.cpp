@@ -29,13 +29,19 @@ struct Root {
 
 }  // namespace
 
+int raysOfRecord(const RayOptions& o, bool byLamps) {
+  const int all = o.ambientDivisions + o.ambientSuperSamples;
+  if (!byLamps) return all;
+  const double enough = tuning::Interpolation::kRaysByLamps / (o.ambientAccuracy * o.ambientAccuracy);
+  return static_cast<int>(std::clamp<double>(enough, (all + 1) / 2, all));
+}
+
 GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, site.normal);
-  const RayOptions& o = t_.options();
   const Root root(t_, site, depth_);
   V3d x, y;
   frame(site.normal, x, y);
-  const int count = o.ambientDivisions + o.ambientSuperSamples;
+  const int count = raysOfRecord(t_.options(), path.settings.caches.byLamps);
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);

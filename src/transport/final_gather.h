@@ -6,6 +6,9 @@
 
 namespace rsphere {
 
+// The number of rays of a record of the irradiance cache. byLamps: isLitByLamps()
+int raysOfRecord(const RayOptions& options, bool byLamps);
+
 // Traces these rays on behalf of a path.
 class TracedFieldRays final : public FieldRays {
  public:

@@ -55,4 +55,14 @@ bool lacksSources(const PreparedScene& prepared) {
          !(prepared.options().ambientBounces > 0 && glows(scene, scene.outermost()));
 }
 
+bool isLitByLamps(const PreparedScene& prepared) {
+  for (const LightSource& light : prepared.lights().all())
+    if (light.isDistant()) return false;
+  const auto& modifiers = prepared.scene().modifiers;
+  return std::none_of(modifiers.begin(), modifiers.end(), [](const Modifier& modifier) {
+    const auto* material = std::get_if<Material>(&modifier.content);
+    return material && std::holds_alternative<Glow>(*material);
+  });
+}
+
 }  // namespace rsphere

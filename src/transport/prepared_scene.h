@@ -63,4 +63,7 @@ bool isDark(const PreparedScene& prepared);
 // The ambient value does not matter.
 bool lacksSources(const PreparedScene& prepared);
 
+// Whether shadow rays find all light. Daylight and glowing surfaces are found by indirect rays only.
+bool isLitByLamps(const PreparedScene& prepared);
+
 }  // namespace rsphere

@@ -119,10 +119,12 @@ struct Openings {
 // Rays that a sensor (-I) adds where its gather is noisy (indirect_light.cpp).
 struct SensorNoise {
   // Rays are added until the standard error of the gather is at most -aa divided by kAccuracy, or until
-  // kMostAdded times -as are added. Chosen by experiment: with 8, variance x time is 1.27 times as large as
-  // without added rays in a room of glass and metal, because two halves are stratified worse than a whole;
-  // with 12 it is 1.10 times as large (tests/bench/rtrace/runs/2026-11-26-sensors.txt).
-  static constexpr double kAccuracy = 12, kMostAdded = 8;
+  // kMostAdded times -as are added. Chosen by experiment. kAccuracy: with 8, variance x time is 1.27 times as
+  // large as without added rays in a room of glass and metal, because two halves are stratified worse than a
+  // whole; with 12 it is 1.10 times as large (tests/bench/rtrace/runs/2026-11-26-sensors.txt).
+  // kMostAdded: with 8, sensors below a shaft have an error of 2.3% in .36 s (-as 512); with 24, 1.3% in
+  // .44 s (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  static constexpr double kAccuracy = 12, kMostAdded = 24;
   // If the rays to be added are fewer than those already sent divided by this, none are added, because so few
   // would be unevenly distributed over the hemisphere.
   static constexpr int kFewestAdded = 8;
@@ -210,6 +212,12 @@ struct Interpolation {
   // experiment. For more tilted normals, the moments of gathered light are less accurate. Reducing it by 30%
   // has no effect beyond noise; increasing it by 30% reduces the time by 23% (picture of workshop).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
+  // Number of rays of a record of the irradiance cache times the square of -aa, where shadow rays find all
+  // light: at most -ad plus -as, and at least half of these. The error of interpolation, which -aa bounds, is
+  // then larger than the noise of the records. Measured: at -aa .15, with 333 instead of 640 rays, pictures
+  // of RADIANCE's cabin and office take a quarter less time for nearly the same errors. In a sunlit
+  // classroom, errors would be a fifth larger (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  RSPHERE_TUNED(Interpolation, double, kRaysByLamps, 7.5);
   // Number of rays that estimate the distances around a site (root mean square and harmonic mean): derived.
   // If single distances vary as much as their mean, that is known within 25%, half of the step between the
   // sides of cells, which are powers of two. Insensitive.

@@ -44,7 +44,7 @@ TEST(SensorNoise, AddedRaysLeaveNoBias) {
   expectMean(illuminances(interpolated(48, 16), 10000), kPi * (1 + 99 * f), .97);
 }
 
-// 512 rays and at most 8 times 128 more: a third of the variance.
+// 512 rays and at most 24 times 128 more: at most half of the variance.
 TEST(SensorNoise, AddedRaysReduceTheNoise) {
   const Sample with = illuminances(interpolated(384, 128), 500),
                without = illuminances(interpolated(512, 0), 500);
