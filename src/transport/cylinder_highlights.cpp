@@ -67,7 +67,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   };
   Box3d places(shape.base);
   places.extendBy(shape.base + shape.length * shape.axis);
-  constexpr size_t kMost = tuning::Caps::kAimed / 2;
+  const size_t kMost = tuning::Caps::kAimed / 2;
   for (const LightingPart& part : sources.at(places, radius, kMost, placeFor)) {
     const double solidAngle = part.solidAngle(placeFor(*part.source));
     const double radiance = reflectance * part.radiance;
