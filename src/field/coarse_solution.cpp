@@ -80,27 +80,33 @@ CoarseSolution::~CoarseSolution() = default;
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
   const double accuracy = std::max(options.accuracy / kUsualAccuracy, 1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
-  const double far = options.patchesAtFirst ? tuning::CoarseSolution::kFarPatchAtFirst
-                                            : tuning::CoarseSolution::kFarPatch;
-  const double fewer = options.patchesAtFirst ? 1 : tuning::CoarseSolution::kFewerByLamps;
+  const bool first = options.patchesAtFirst;
+  const double far = first ? tuning::CoarseSolution::kFarPatchAtFirst : tuning::CoarseSolution::kFarPatch,
+               near = first ? tuning::CoarseSolution::kNearAtFirst : tuning::CoarseSolution::kNear,
+               share =
+                   first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
+  const double fewer = first ? 1 : tuning::CoarseSolution::kFewerByLamps;
   if (!daylit)
     return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
             tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
             tuning::CoarseSolution::kCoarserByLamps * far,
+            near,
             fewer * tuning::CoarseSolution::kRays * options.rays,
-            options.patchesAtFirst ? 1. : 0.,
+            first ? 1. : 0.,
             1,
-            options.patchesAtFirst
-                ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
-                      tuning::CoarseSolution::kLeastRays
-                : fewer * tuning::CoarseSolution::kLeastRays};
+            first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
+                        tuning::CoarseSolution::kLeastRays
+                  : fewer * tuning::CoarseSolution::kLeastRays,
+            share};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
           far,
+          near,
           tuning::CoarseSolution::kRays * options.rays * std::max(1., 1 / accuracy),
           0,
           tuning::CoarseSolution::kMoreRays,
-          tuning::CoarseSolution::kLeastRays};
+          tuning::CoarseSolution::kLeastRays,
+          share};
 }
 
 Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
@@ -175,8 +181,8 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
   if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return nullptr;
-  level = std::max(level, std::min(grid_.levelOf(tuning::CoarseSolution::kNear * place.distance),
-                                   std::min(enough, division.finest)));
+  level = std::max(
+      level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
   // Light varies across closely spaced strips such as slats, because neighbouring strips hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
@@ -200,8 +206,7 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
   // Patches with a larger share in the light of others get more rays, because their noise matters more.
-  const double part =
-      std::clamp(patch.share / tuning::CoarseSolution::kUsualShare, effort_.fewer, effort_.more);
+  const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
   const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
   auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
   const PatchLinks* first = nullptr;

@@ -63,9 +63,11 @@ class CoarseSolution {
     double spacing;      // side of a patch, relative to the harmonic mean distance of its surroundings
     double leastSide;    // lower bound on the side of a patch, relative to its surface's extent
     double farSide;      // sufficient side of a patch, relative to the distance it is seen from
-    double usual;        // rays of a patch with the share Tuning::kUsualShare in the light of others
+    double nearSide;     // largest side of a patch, relative to that distance
+    double usual;        // rays of a patch with usualShare in the light of others
     double fewer, more;  // bounds on the factor for other shares
     double least;        // lower bound on the rays of a patch
+    double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

@@ -95,9 +95,10 @@ struct CoarseSolution {
   // twice the time, because places at different distances use patches of different levels
   // (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .02);
-  // The same if patches are used at the first bounce. Spherical means average over more directions than a
-  // sensor does, and have the same error with .02 and .09; with .02 they take a fifth more time.
-  static constexpr double kFarPatchAtFirst = .09;
+  // kNear, kFarPatch and kUsualShare if patches are used at the first bounce. Measured: with the values of
+  // the others, spherical means in four daylit rooms take 1.4 times the time for the same errors
+  // (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  static constexpr double kNearAtFirst = .5, kFarPatchAtFirst = .09, kUsualShareAtFirst = .008;
   // Lower bound on the side of a patch, relative to its surface's extent. Without it, patches in a corner,
   // where everything is near, would be divided without end. Measured together with kSpacing. With .02, the
   // time is three times as long.
