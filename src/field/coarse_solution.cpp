@@ -81,10 +81,10 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
   const double accuracy = std::max(options.accuracy / kUsualAccuracy, 1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   const bool first = options.patchesAtFirst;
-  const double far = first ? tuning::CoarseSolution::kFarPatchAtFirst : tuning::CoarseSolution::kFarPatch,
-               near = first ? tuning::CoarseSolution::kNearAtFirst : tuning::CoarseSolution::kNear,
-               share =
-                   first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
+  const double far = first ? tuning::CoarseSolution::kFarPatchAtFirst : tuning::CoarseSolution::kFarPatch;
+  const double near = first ? tuning::CoarseSolution::kNearAtFirst : tuning::CoarseSolution::kNear;
+  const double share =
+      first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
   const double fewer = first ? 1 : tuning::CoarseSolution::kFewerByLamps;
   if (!daylit)
     return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,

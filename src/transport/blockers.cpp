@@ -135,7 +135,7 @@ const Blocker::Whole& Blockers::wholeOf(const Blocker& blocker) const {
 
 // The segments from one box to another, and what the search for a blocker has found out about them.
 struct Blockers::Way {
-  // Narrowed to what holes in the areas that were looked at leave.
+  // Narrowed to what can be seen through the holes of the areas that were examined.
   Box3d from;
   Box3d to;
   // Whether an area extends far enough to hide the box, but has a hole or a gap.
@@ -144,13 +144,13 @@ struct Blockers::Way {
   bool isOpen = false;    // whether nothing blocks that segment, so that there is no blocker
 
   bool missesFirst() { return !std::exchange(wasTried, true); }
-  bool isHiddenBesides(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
+  bool narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
 };
 
-// Narrows each box to what the other may see of it through the holes of an area. Returns whether that is
-// nothing. axis: perpendicular to the area; cuts: where segments between the corners of the boxes meet it.
-bool Blockers::Way::isHiddenBesides(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
-                                    double inset) {
+// Narrows each box to what can be seen of it from the other through the holes of an area. Returns true if
+// nothing can. axis: perpendicular to the area; cuts: where segments between the boxes' corners intersect it.
+bool Blockers::Way::narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
+                                  double inset) {
   Box3d all, open;
   for (const V3d& cut : cuts) all.extendBy(cut);
   for (Box3d hole : area.holes()) {
@@ -198,8 +198,8 @@ bool Blockers::isClear(const V3d& from, const V3d& to) const {
 // If a segment misses the polygon, looks whether anything blocks it before the area is looked up, which may
 // take long.
 //
-// Where it is not so because of holes, the boxes are narrowed, so that slabs whose holes are not above one
-// another hide a box together.
+// If some segments pass through holes, the boxes are narrowed to the ends of such segments. Slabs whose holes
+// are not above one another may then hide a box together.
 bool Blockers::covers(const Blocker& blocker, Way& way) const {
   const Box3d from = way.from, to = way.to;
   Box3d both = from;
@@ -239,7 +239,7 @@ bool Blockers::covers(const Blocker& blocker, Way& way) const {
   const bool covered = single || area->contains(cuts, inset);
   way.seesHole = way.seesHole || !covered;
   if (std::ranges::any_of(tracer_.refracting(), meets)) return false;
-  return covered || (blocker.axis >= 0 && way.isHiddenBesides(*area, blocker.axis, cuts, inset));
+  return covered || (blocker.axis >= 0 && way.narrowToHoles(*area, blocker.axis, cuts, inset));
 }
 
 bool Blockers::anyBetween(const V3d& from, const V3d& to, FunctionRef<bool(const KnownBlocker&)> use) const {

@@ -334,7 +334,7 @@ void JoinedPolygons::sort() const {
   });
 }
 
-// The polygons of a plane that stop shadow rays from one side of it. side: 1 or -1, as in areaOf().
+// Groups of polygons in a plane that stop shadow rays from one side of it. side: 1 or -1, as in areaOf().
 JoinedPolygons::Plane JoinedPolygons::groupsOf(std::span<const InPlane> plane, double side) const {
   const Surface firstSurface = scene_.surfaces[plane.front().polygon];
   const Polygon& first = *firstSurface.shape.as<Polygon>();
@@ -401,9 +401,9 @@ const JoinedPolygons::Area* JoinedPolygons::areaOf(SurfaceId id, bool front) con
   if (polygons.size() == 1 && asked.vertices <= 4) return nullptr;
   auto& areas = known->areas[group->second];
   if (!areas) {
-    const Surface surfaceOfFirst = scene_.surfaces[begin->polygon];
-    const V3d normal = surfaceOfFirst.shape.as<Polygon>()->normal;
-    areas = std::make_unique<const Areas>(Joining(scene_, normal, polygons).find());
+    const Surface first = scene_.surfaces[begin->polygon];
+    areas =
+        std::make_unique<const Areas>(Joining(scene_, first.shape.as<Polygon>()->normal, polygons).find());
   }
   const auto found = areas->areaOf.find(index);
   return found == areas->areaOf.end() ? nullptr : &areas->areas[found->second];

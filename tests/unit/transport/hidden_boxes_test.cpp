@@ -253,11 +253,11 @@ TEST(HiddenBoxes, AFloorHidesLampsFromTheWallsAroundIt) {
 }
 
 // A slab of four polygons around a rectangular hole.
-std::string around(const Box3d& hole, double z) {
-  const auto [x0, y0, unused0] = std::array{hole.min.x, hole.min.y, 0.};
-  const auto [x1, y1, unused1] = std::array{hole.max.x, hole.max.y, 0.};
-  return rectangle("wall", 0, 0, 4, y0, z, true) + rectangle("wall", 0, y1, 4, 3, z, true) +
-         rectangle("wall", 0, y0, x0, y1, z, true) + rectangle("wall", x1, y0, 4, y1, z, true);
+std::string slabWithHole(const Box3d& hole, double z) {
+  const V3d low = hole.min, high = hole.max;
+  return rectangle("wall", 0, 0, 4, low.y, z, true) + rectangle("wall", 0, high.y, 4, 3, z, true) +
+         rectangle("wall", 0, low.y, low.x, high.y, z, true) +
+         rectangle("wall", high.x, low.y, 4, high.y, z, true);
 }
 
 // Light that passes the hole of one slab does not pass that of the other.
@@ -266,7 +266,7 @@ TEST(HiddenBoxes, SlabsWithHolesHideTogether) {
   const Box3d below({.5, .5, 0}, {3.5, 2.5, 2}), above({.5, .5, 5}, {3.5, 2.5, 6});
   const auto hides = [&](const Box3d& lower, const Box3d& upper, const std::string& more) {
     const Building b("void plastic wall 0 0 5 .6 .6 .6 0 0\nvoid dielectric water 0 0 5 .9 .9 .9 1.33 0\n" +
-                     around(lower, 3) + around(upper, 4) + more);
+                     slabWithHole(lower, 3) + slabWithHole(upper, 4) + more);
     return std::pair(b.hides(below, above), b.hides(above, below));
   };
   EXPECT_EQ(hides(corner, opposite, ""), std::pair(true, true));
@@ -285,7 +285,7 @@ TEST(HiddenBoxes, NothingPassesTheHolesOfSlabsToWhatIsHidden) {
   int hidden = 0, reached = 0, together = 0;
   for (int n = 0; n < 120; ++n) {
     std::string text = "void plastic wall 0 0 5 .6 .6 .6 0 0\n";
-    for (const double z : {3., 4., 5.}) text += around(boxIn({{.3, .3, 0}, {3.7, 2.7, 0}}), z);
+    for (const double z : {3., 4., 5.}) text += slabWithHole(boxIn({{.3, .3, 0}, {3.7, 2.7, 0}}), z);
     const Building b(text);
     for (int k = 0; k < 10; ++k) {
       const Box3d from = boxIn({{.2, .2, 0}, {3.8, 2.8, 2.9}}), to = boxIn({{.2, .2, 5.1}, {3.8, 2.8, 9}});
