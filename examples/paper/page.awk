@@ -100,10 +100,10 @@ END {
     printf "| %s | %.3g to %.3g | %s to %s | %s to %s | %s |\n", title(part[1], part[2]), 1e3 * low_h, 1e3 * high_h, whole(low_v), \
       whole(high_v), whole(low_c), whole(high_c), part[1] == "light" ? "" : part[2] == "low" ? "68 to 93%" : "65 to 76%"
   }
-  print "\nThe ratio follows the number of directions, and the cells, which were a good part of the time when the paper was written,"
-  print "cost .2 ms a point: something only where rays are as cheap as those of importance at low quality, a microsecond each. There"
-  print "ours takes as long as equal weights or longer, with fewer directions: to find which silhouettes hold a direction costs"
-  print "about as much as to trace it. But a time says nothing without the error that it buys."
+  print "\nThe paper's ratio follows the number of directions: its cells, which were a good part of the time when the paper was"
+  print "written, cost .2 ms a point. Ours takes longer than equal weights, since each of its directions brings a dozen glances"
+  print "at diffuse surfaces, and light paths from the sources are traced first, for all 12 points. A time says nothing without the"
+  print "error that it buys."
 
   print "\n## Errors, and time at equal error\n"
   print "50 spheres. The last column is the time, as a share of what equal weights take for the same error (a power law through"
@@ -189,8 +189,23 @@ END {
   print "  That is the integration of light sources by their own solid angle, more than directions to special objects."
   printf "- For importance it is then %s to %s (low) and %s to %s (high). The goal is one desktop: it is integrated apart where it\n", \
     whole(low_share[3]), whole(high_share[3]), whole(low_share[4]), whole(high_share[4])
-  print "  is seen, and what errs then are the paths of indirect light, few of which bring much. None of the three is accurate"
-  print "  there at the paper's numbers of directions, whatever a time ratio says."
-  print "- Rows with `-Sk 0` are without directions to special objects. For radiance these are worth little here, and for"
-  print "  importance they cost more than they bring. tests/bench/README.md has two rooms where they count."
+  print "  is seen, and light paths from it bring what arrives by other surfaces."
+  print "- Rows with `-Sk 0` are without directions to special objects, and without glances and light paths. For radiance with one"
+  print "  bounce they take about the same time at equal error, for importance longer."
+  print "  tests/bench/README.md has two rooms where directions to special objects count."
+
+  print "\n## What changed since 2026-11-23\n"
+  print "Then, all indirect light came by paths from the point. Now light paths from the sources (or from the goal) meet glances from"
+  print "the point (\"Light from both ends\" in [src/README.md](../../src/README.md)). Ours at the paper's numbers of"
+  print "directions, 50 spheres; times are of other machines, shares are not:\n"
+  print "| | rms error, then | now | time at equal error, then | now |"
+  print "|---|---|---|---|---|"
+  split(".23% .22% 3.29% 3.69%", then_error, " ")
+  split("4% 3% 20% 21%", then_share, " ")
+  for (r = 1; r <= 4; ++r) {
+    split(runs[r], part, ".")
+    key = part[1] SUBSEP part[2] SUBSEP 50
+    printf "| %s | %s | %s | %s | %s |\n", title(part[1], part[2]), then_error[r], percent(rms[key, ours[key]]), then_share[r], \
+      whole(own_share[r])
+  }
 }

@@ -131,6 +131,7 @@ VertexClusters::VertexClusters(std::span<const LightVertex> vertices, std::span<
     : vertices_(vertices),
       ends_(ends.begin(), ends.end()),
       hidden_(std::move(hidden)),
+      near_(NearVertices::of(vertices, width)),
       falloff_{width * width, uneven ? 1.f : 0.f} {
   Box3d box;
   for (const LightVertex& v : vertices) box.extendBy(v.point());
@@ -216,6 +217,23 @@ void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   weights = seen;
 }
 
+size_t VertexClusters::clusterOf(uint32_t vertex) const {
+  return static_cast<size_t>(std::ranges::upper_bound(ends_, vertex) - ends_.begin());
+}
+
+// Adds one vertex of those around the place. Each candidate has two ways to be sampled then.
+void VertexClusters::addNear(const Receiver& to, const Numbers& weights, double scale, Random& random,
+                             Candidates& drawn) const {
+  const NearVertices::Around around = near_->around(to.point);
+  if (around.empty()) return;
+  const uint32_t vertex = around.draw(random);
+  const size_t cluster = clusterOf(vertex);
+  drawn.all[drawn.count++] = {
+      vertex, weights[cluster] * scale / static_cast<double>(firstOf(cluster + 1) - firstOf(cluster))};
+  for (size_t k = 0; k < drawn.count; ++k)
+    drawn.all[k].drawn += around.probabilityOf(vertices_[drawn.all[k].vertex]);
+}
+
 VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& random) const {
   Numbers weights;
   weigh(to, weights);
@@ -229,7 +247,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
   double due = random.uniform();
   const auto drawFrom = [&](size_t i) {
     const double expected = weights[i] * scale;
-    for (due += expected; due >= 1 && drawn.count < drawn.all.size(); --due) {
+    for (due += expected; due >= 1 && drawn.count < drawn.all.size() - 1; --due) {
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
@@ -245,6 +263,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
       due = all;
     else
       for (size_t i = g * kGroup; i < (g + 1) * kGroup; ++i) drawFrom(i);
+  if (near_) addNear(to, weights, scale, random, drawn);
   Candidates found;
   for (size_t k = 0; k < drawn.count; ++k) {
     Candidate& candidate = found.all[found.count];

@@ -10,6 +10,7 @@
 #include "base/color.h"
 #include "scene/random.h"
 #include "transport/hidden_boxes.h"
+#include "transport/near_vertices.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -47,11 +48,12 @@ class VertexClusters {
     double weight = 0;  // unoccluded light that it sends, up to constant factors
   };
   struct Candidates {
-    std::array<Candidate, tuning::VertexLight::kCandidatesRoom> all;
+    std::array<Candidate, tuning::VertexLight::kCandidatesRoom + 1> all;
     size_t count = 0;
   };
-  // Samples kCandidates vertices, from clusters with probabilities proportional to their estimated light.
-  // Vertices that send no light are dropped, so that there may be fewer.
+  // Samples kCandidates vertices, from clusters with probabilities proportional to their estimated light, and
+  // one of NearVertices, if there are any. Vertices that send no light are dropped, so that there may be
+  // fewer.
   Candidates draw(const Receiver& to, Random& random) const;
 
  private:
@@ -78,6 +80,9 @@ class VertexClusters {
     Numbers sine{};       // sine of the largest angle between a normal and the mean; 1: no bound
   };
 
+  size_t clusterOf(uint32_t vertex) const;
+  void addNear(const Receiver& to, const Numbers& weights, double scale, Random& random,
+               Candidates& drawn) const;
   size_t firstOf(size_t cluster) const { return cluster > 0 ? ends_[cluster - 1] : 0; }
   void measure(size_t cluster);
   void weigh(const Receiver& to, Numbers& weights) const;
@@ -85,6 +90,7 @@ class VertexClusters {
   std::span<const LightVertex> vertices_;
   std::vector<uint32_t> ends_;
   std::optional<HiddenBoxes> hidden_;
+  std::optional<NearVertices> near_;
   struct Falloff {
     double width2;    // the square of the width
     float byNearest;  // 1: clusters are weighed by their nearest place, too; 0: not
