@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "shade/scattering.h"
 
 namespace rsphere {
 namespace {
@@ -60,17 +59,20 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
     seen_.push_back({&p, shape, sum});
   }
   for (Seen& s : seen_) s.upTo /= sum;
-  if (sum > 0) aimed_ = tuning::GatherDirections::kAimed;
 }
 
-double PortalDirections::density(const V3d& direction) const {
+// chosen: contains the direction, whatever rounding does.
+double PortalDirections::density(const V3d& direction, const Seen& chosen) const {
   double sum = 0, before = 0;
   for (const Seen& s : seen_) {
     const double share = s.upTo - before, cosine = -direction.dot(s.portal->normal);
     before = s.upTo;
-    if (!(cosine > 0)) continue;
-    const double distance = (point_ - s.portal->corner).dot(s.portal->normal) / cosine;
-    if (contains(*s.portal, point_ + distance * direction)) sum += share / s.shape.solidAngle();
+    if (&s != &chosen) {
+      if (!(cosine > 0)) continue;
+      const double distance = (point_ - s.portal->corner).dot(s.portal->normal) / cosine;
+      if (!contains(*s.portal, point_ + distance * direction)) continue;
+    }
+    sum += share / s.shape.solidAngle();
   }
   return sum;
 }
@@ -78,15 +80,12 @@ double PortalDirections::density(const V3d& direction) const {
 PortalDirections::Sample PortalDirections::draw(Random& random) const {
   Sample sample;
   const double u = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
-  if (u < aimed_) {
-    const auto chosen =
-        std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u / aimed_ < s.upTo; });
-    sample.direction = chosen->shape.sample(u1, u2);
-  } else {
-    sample.direction = diffuseDirection(normal_, u1, u2);
-  }
+  if (seen_.empty()) return sample;
+  const auto chosen =
+      std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u < s.upTo; });
+  sample.direction = chosen->shape.sample(u1, u2);
   const double even = normal_.dot(sample.direction) / kPi;
-  if (even > 0) sample.share = even / (aimed_ * density(sample.direction) + (1 - aimed_) * even);
+  if (even > 0) sample.share = even / density(sample.direction, *chosen);
   return sample;
 }
 

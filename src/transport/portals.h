@@ -40,9 +40,8 @@ class Portals {
   double lift_ = 0;
 };
 
-// Directions over the hemisphere of a place for the light of portals: some to the portals, the others
-// distributed like the light of a diffuse surface (one-sample multiple importance sampling with the balance
-// heuristic).
+// Directions from a place to portals. A portal is selected by its estimated light, a direction to it by solid
+// angle. Where one portal is behind another, the densities of both are added (balance heuristic).
 class PortalDirections {
  public:
   // normal: unit. Keeps a reference to the portals.
@@ -50,7 +49,7 @@ class PortalDirections {
 
   struct Sample {
     V3d direction;     // unit
-    double share = 0;  // of the mean over the hemisphere; 0: the direction lies below it
+    double share = 0;  // of the mean over the hemisphere; 0: no portal is seen, or only below the horizon
   };
   Sample draw(Random& random) const;
 
@@ -60,10 +59,9 @@ class PortalDirections {
     SphericalRectangle shape;
     double upTo;  // cumulative probability
   };
-  double density(const V3d& direction) const;
+  double density(const V3d& direction, const Seen& chosen) const;
 
   V3d point_, normal_;
-  double aimed_ = 0;  // share of the directions
   std::vector<Seen> seen_;
 };
 

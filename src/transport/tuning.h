@@ -157,8 +157,7 @@ struct GatherDirections {
   //   value   variance x time in the four rooms
   //   .5      1.3  .9   1    1
   //   .3      7.8  2.4  1.1  1.2
-  // For spots, the results from .5 to .9 do not differ beyond noise. It is also the fraction of the rays for
-  // the light of portals that are aimed at them.
+  // For spots, the results from .5 to .9 do not differ beyond noise.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
   // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
   // near openings, where rooms are brighter than farther inside. Measured:
