@@ -257,6 +257,15 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 
+namespace {
+
+// Black smooth metal is the same as a mirror without virtual sources; both bring light of portals.
+bool isMirror(const PlainSurfaces& surfaces, const Sight& sight) {
+  return sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror;
+}
+
+}  // namespace
+
 bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces) {
   Random random(seedOf(std::array{point.x, point.y, point.z}));
   FunctionScratch scratch;
@@ -268,7 +277,7 @@ bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces)
       const Sight sight = surfaces.look(origin, direction, kFarAway, start);
       if (sight.leaves) break;
       const PlainPlace at = surfaces.placeOf(origin, direction, sight, scratch);
-      past += !at.material;
+      past += !at.material && !isMirror(surfaces, sight);
       if (!at.material || random.uniform() >= brightness(Radiance(at.color()))) break;
       origin = at.point;
       start = at.surface;

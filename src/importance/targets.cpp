@@ -109,7 +109,8 @@ TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const Special
       sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(tracing, objects, sources),
-      glints_(tracing.prepared, objects) {
+      glints_(tracing.prepared, objects),
+      images_(tracing.aims.images) {
   const Openings* const openings = tracing.aims.openings;
   radiances_.resize(contrasts_.objects().size());
   if (!openings) return;
@@ -148,9 +149,12 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   for (const uint32_t i : view.objects)
     add(silhouetteOf(prepared_.scene(), contrasts_.objects()[i], point),
         contrasts_.deviationOn(i, *view.region), false, radiances_[i]);
-  if (usual > 0)
-    for (Glint& g : glints_.find(point, tuning::Targets::kLeastGlint * kFullSphere * usual * usual))
-      add(std::move(g.region), tuning::Targets::kPartlyLit * g.brightness, g.continues);
+  const auto addGlints = [&](std::vector<Glint> found) {
+    for (Glint& g : found) add(std::move(g.region), tuning::Targets::kPartlyLit * g.brightness, g.continues);
+  };
+  const double least = tuning::Targets::kLeastGlint * kFullSphere * usual * usual;
+  if (usual > 0) addGlints(glints_.find(point, least));
+  if (usual > 0 && images_) addGlints(mirroredOpenings(prepared_, *images_, point, least));
   for (const auto& [place, radiance] : openings_) {
     if (!((point - place.corner).dot(place.normal) > 0)) continue;
     const std::array corners{place.at(0, 0), place.at(1, 0), place.at(1, 1), place.at(0, 1)};

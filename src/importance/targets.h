@@ -6,6 +6,7 @@
 #include "importance/contrasts.h"
 #include "importance/direction_sample.h"
 #include "importance/glints.h"
+#include "importance/mirrored_openings.h"
 #include "importance/silhouette_index.h"
 #include "transport/bright_spots.h"
 #include "transport/openings.h"
@@ -56,11 +57,11 @@ class TargetChoice {
                const SeenSources& sources, double densityFactor);
 
   // The targets at a point (world): special objects, images of light sources in them, openings that show
-  // daylight (transport/openings.h), and visible spots of daylight (transport/bright_spots.h). The density on
-  // a target is in proportion to the standard deviation of its radiance (Neyman's allocation), relative to
-  // the base directions, whose density is assumed to be optimal elsewhere. If that takes more than `most`
-  // extra directions on average, all densities are reduced by the same factor, so that no target is dropped.
-  // meanBrightness: of the view from the point, W/sr/m2.
+  // daylight (transport/openings.h) and their images in mirrors, and visible spots of daylight
+  // (transport/bright_spots.h). The density on a target is in proportion to the standard deviation of its
+  // radiance (Neyman's allocation), relative to the base directions, whose density is assumed to be optimal
+  // elsewhere. If that takes more than `most` extra directions on average, all densities are reduced by the
+  // same factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
@@ -73,6 +74,7 @@ class TargetChoice {
   double densityFactor_;
   Contrasts contrasts_;
   Glints glints_;
+  const OpeningImages* images_;  // null: none
 };
 
 }  // namespace rsphere

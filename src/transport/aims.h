@@ -4,6 +4,7 @@
 
 #include "transport/bright_spots.h"
 #include "transport/highlights.h"
+#include "transport/opening_images.h"
 #include "transport/openings.h"
 
 namespace rsphere {
@@ -13,6 +14,7 @@ struct Aims {
   const Openings* openings = nullptr;
   const BrightSpots* spots = nullptr;
   const Highlights* highlights = nullptr;
+  const OpeningImages* images = nullptr;
 };
 
 // Owns the places of Aims. Null: they were not looked for, or none were found.
@@ -20,14 +22,15 @@ struct FoundAims {
   std::unique_ptr<const Openings> openings;
   std::unique_ptr<const BrightSpots> spots;
   std::unique_ptr<const Highlights> highlights;
+  std::unique_ptr<const OpeningImages> images;
 
-  operator Aims() const { return {openings.get(), spots.get(), highlights.get()}; }
+  operator Aims() const { return {openings.get(), spots.get(), highlights.get(), images.get()}; }
 };
 
 // For each kind of place, the aims of `more`, or those of `some` if `more` has none.
 inline Aims joined(const Aims& some, const Aims& more) {
   return {more.openings ? more.openings : some.openings, more.spots ? more.spots : some.spots,
-          more.highlights ? more.highlights : some.highlights};
+          more.highlights ? more.highlights : some.highlights, more.images ? more.images : some.images};
 }
 
 }  // namespace rsphere

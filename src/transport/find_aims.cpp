@@ -14,6 +14,10 @@ std::unique_ptr<const BrightSpots> spotsOf(const PreparedScene& prepared, const 
   return unlessEmpty(BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), openings));
 }
 
+std::unique_ptr<const OpeningImages> imagesOf(const PreparedScene& prepared, const Openings* openings) {
+  return openings ? unlessEmpty(OpeningImages(prepared, *openings)) : nullptr;
+}
+
 bool looksForSpots(const PreparedScene& prepared, const Openings* openings) {
   return prepared.options().ambientAccuracy > 0 || openings;
 }
@@ -25,6 +29,7 @@ FoundAims findAimsOfGathers(const PreparedScene& prepared) {
   if (!prepared.options().hasIndirectLight()) return found;
   const Scene& scene = prepared.scene();
   if (!scene.importance) found.openings = unlessEmpty(findOpenings(prepared));
+  found.images = imagesOf(prepared, found.openings.get());
   if (looksForSpots(prepared, found.openings.get())) found.spots = spotsOf(prepared, found.openings.get());
   found.highlights = unlessEmpty(Highlights(scene, prepared.tracer(), prepared.lights()));
   return found;
@@ -34,6 +39,7 @@ FoundAims findAimsOfPoints(const PreparedScene& prepared) {
   FoundAims found;
   if (prepared.options().hasIndirectLight() || prepared.scene().importance) return found;
   found.openings = unlessEmpty(findOpenings(prepared));
+  found.images = imagesOf(prepared, found.openings.get());
   if (found.openings) found.spots = spotsOf(prepared, found.openings.get());
   return found;
 }

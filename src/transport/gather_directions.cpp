@@ -19,9 +19,9 @@ constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 // The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, the two estimates
 // are made near them, where a room is brighter than elsewhere, and the smaller one is used.
 double usualRadiance(const Aims& aims) {
-  if (!aims.openings) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
-  const double least =
-      aims.spots ? std::min(aims.openings->inside(), aims.spots->usual()) : aims.openings->inside();
+  if (!aims.openings && !aims.images) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
+  const double inside = aims.openings ? aims.openings->inside() : aims.images->inside();
+  const double least = aims.spots ? std::min(inside, aims.spots->usual()) : inside;
   return tuning::GatherDirections::kFartherInside * least;
 }
 
@@ -32,11 +32,13 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
     : normal_(normal),
       trueNormal_(trueNormal),
       openings_(aims.openings),
+      images_(aims.images),
       spots_(aims.spots),
       highlights_(aims.highlights) {
   if (aims.openings) aims.openings->aim(point, normal, openings_.aim);
+  if (aims.images) aims.images->aim(point, normal, images_.aim);
   if (aims.spots) aims.spots->aim(point, normal, spots_.aim);
-  const double aimedAt = openings_.aim.mean + spots_.aim.mean;
+  const double aimedAt = openings_.aim.mean + images_.aim.mean + spots_.aim.mean;
   if (!(aimedAt > 0) && !aims.highlights) return;
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
@@ -47,16 +49,21 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   if (!(aimedAt > 0)) return;
   // Unaimed directions hit openings too, in proportion to the form factor. If they alone reach the cap on the
   // fraction of directions towards openings, none is aimed.
-  const double unseen = std::max(0., 1 - openings_.aim.seen / kMostToOpenings);
-  openings_.share =
-      std::min(kMostToOpenings, tuning::GatherDirections::kAimed * openings_.aim.mean / all * unseen);
+  const double seen = openings_.aim.seen + images_.aim.seen;
+  const double unseen = std::max(0., 1 - seen / kMostToOpenings);
+  const double mean = openings_.aim.mean + images_.aim.mean;
+  const double share = std::min(kMostToOpenings, tuning::GatherDirections::kAimed * mean / all * unseen);
+  if (mean > 0) {
+    openings_.share = share * (openings_.aim.mean / mean);
+    images_.share = share * (images_.aim.mean / mean);
+  }
   spots_.share = tuning::GatherDirections::kAimed * spots_.aim.mean / all;
 }
 
 // The density of the mixture in a direction, relative to sampling by projected solid angle.
 double GatherDirections::density(const V3d& direction) const {
-  const double aimed =
-      openings_.density(direction) + spots_.density(direction) + highlights_.density(direction);
+  const double aimed = openings_.density(direction) + images_.density(direction) + spots_.density(direction) +
+                       highlights_.density(direction);
   return unaimed() + aimed * kPi / direction.dot(normal_);
 }
 
@@ -71,7 +78,9 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
     V3d direction;
     if (u < openings_.share) {
       direction = openings_.sample(u, even.x, even.y);
-    } else if ((u -= openings_.share) < spots_.share) {
+    } else if ((u -= openings_.share) < images_.share) {
+      direction = images_.sample(u, even.x, even.y);
+    } else if ((u -= images_.share) < spots_.share) {
       direction = spots_.sample(u, even.x, even.y);
     } else if ((u -= spots_.share) < highlights_.share) {
       direction = highlights_.sample(u, even.x, even.y);

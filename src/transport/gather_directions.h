@@ -1,7 +1,8 @@
 #pragma once
-// The directions of a gather. Most are distributed by projected solid angle; the others are aimed at daylight
-// openings, at bright spots, and at highlights on rough balls and cylinders. Each is weighted by the density
-// of the whole mixture in its direction (multiple importance sampling with the balance heuristic).
+// The directions of a gather. Most are distributed by projected solid angle; the others are aimed at
+// daylight openings and their images in mirrors, at bright spots, and at highlights on rough balls and
+// cylinders. Each is weighted by the density of the whole mixture in its direction (multiple importance
+// sampling with the balance heuristic).
 
 #include "scene/random.h"
 #include "transport/aims.h"
@@ -30,10 +31,11 @@ class GatherDirections {
 
  private:
   double density(const V3d& direction) const;
-  double unaimed() const { return 1 - openings_.share - spots_.share - highlights_.share; }
+  double unaimed() const { return 1 - openings_.share - images_.share - spots_.share - highlights_.share; }
 
   V3d normal_, trueNormal_;
   ShareOfMixture<Openings> openings_;
+  ShareOfMixture<OpeningImages> images_;
   ShareOfMixture<BrightSpots> spots_;
   ShareOfMixture<Highlights> highlights_;
 };

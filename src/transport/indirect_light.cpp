@@ -69,12 +69,14 @@ class GatherNoise {
   std::array<double, kBins> bins_{};
 };
 
-// The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots.
+// The aims of a gather. If paths from both ends estimate daylight, no rays are aimed at openings or spots,
+// and at images of openings only where light that comes by mirrors is left to gathers.
 Aims aimsAt(const RayEnd& end, const PathSettings& settings, const PathState& state) {
   Aims aims = settings.aims;
   if (end.known != Known::no && !state.request.vertexLight->surfaces().portals().empty()) {
     aims.openings = nullptr;
     aims.spots = nullptr;
+    if (end.known == Known::joined) aims.images = nullptr;
   }
   return aims;
 }

@@ -14,20 +14,7 @@ void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
   aim.seen = 0;
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
-    if ((point - o.corner).dot(o.normal) <= 0) continue;
-    // The form factor to the opening, estimated from its middle and four other points. These are separated by
-    // sqrt(5/12) of its sides, so that the mean of the five is exact for polynomials of the third degree.
-    constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
-    double factor = 0;
-    for (int c = 0; c < 5; ++c) {
-      const double a = c < 4 ? kInset + kBetween * (c & 1) : .5;
-      const double b = c < 4 ? kInset + kBetween * (c >> 1) : .5;
-      const V3d way = o.at(a, b) - point;
-      const double squared = way.length2();
-      const double here = way.dot(normal), there = -way.dot(o.normal);
-      if (here > 0 && there > 0) factor += here * there / (squared * squared);
-    }
-    factor = factor / 5 * o.filled / kPi;
+    const double factor = formFactorTo(o, o.filled, point, normal, [](const V3d&) { return true; });
     if (!(factor > 0)) continue;
     aim.seen += factor;
     aim.add(i, factor * kPi * o.power / o.filled);
@@ -41,18 +28,8 @@ V3d Openings::sample(const Aim& aim, double u1, double u2, double u3) const {
 
 double Openings::density(const Aim& aim, const V3d& direction) const {
   double sum = 0;
-  for (size_t i = 0; i < aim.count; ++i) {
-    const double chance = aim.upTo[i] - aim.before(i);
-    const Opening& o = openings_[aim.number[i]];
-    const double cosine = -direction.dot(o.normal);
-    if (!(cosine > 0)) continue;
-    const V3d from = aim.point - o.corner;
-    const double distance = from.dot(o.normal) / cosine;
-    const V3d at = from + distance * direction;
-    const double u = at.dot(o.x), v = at.dot(o.y);
-    if (u < 0 || v < 0 || u > o.width || v > o.height) continue;
-    sum += chance * distance * distance / (cosine * o.area());
-  }
+  for (size_t i = 0; i < aim.count; ++i)
+    sum += (aim.upTo[i] - aim.before(i)) * densityTo(openings_[aim.number[i]], aim.point, direction);
   return sum / aim.before(aim.count);
 }
 

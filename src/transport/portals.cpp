@@ -6,17 +6,6 @@
 #include "base/constants.h"
 
 namespace rsphere {
-namespace {
-
-// Whether a line through a point meets the rectangle, given where it meets its plane.
-bool contains(const Rectangle& r, const V3d& at) {
-  const V3d from = at - r.corner;
-  const double u = from.dot(r.x), v = from.dot(r.y);
-  return u >= 0 && v >= 0 && u <= r.width && v <= r.height;
-}
-
-}  // namespace
-
 Portals::Portals(const Openings& openings, double size) : lift_(std::max(1e-6 * size, 8 * kSamePlace)) {
   double brightest = 0;
   for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);

@@ -37,4 +37,11 @@ Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> po
   return r;
 }
 
+double densityTo(const Rectangle& r, const V3d& point, const V3d& direction) {
+  const double cosine = -direction.dot(r.normal);
+  if (!(cosine > 0)) return 0;
+  const double distance = (point - r.corner).dot(r.normal) / cosine;
+  return contains(r, point + distance * direction) ? distance * distance / (cosine * r.area()) : 0;
+}
+
 }  // namespace rsphere

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/constants.h"
 #include "scene/scene.h"
 
 namespace rsphere {
@@ -16,6 +17,38 @@ struct Rectangle {
   // The point at these fractions of the width and the height.
   V3d at(double u, double v) const { return corner + u * width * x + v * height * y; }
 };
+
+// Whether a point of the rectangle's plane lies in the rectangle.
+inline bool contains(const Rectangle& r, const V3d& at) {
+  const V3d from = at - r.corner;
+  const double u = from.dot(r.x), v = from.dot(r.y);
+  return u >= 0 && v >= 0 && u <= r.width && v <= r.height;
+}
+
+// The form factor to the front of the rectangle from a place with this normal (unit), estimated from five
+// points of it. filled: area of the parts that count (square world units). counts(at): whether light comes
+// from a point.
+template <class Counts>
+double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V3d& normal, Counts counts) {
+  if (!((point - r.corner).dot(r.normal) > 0)) return 0;
+  // The middle and four other points, which are separated by sqrt(5/12) of the sides, so that the mean of the
+  // five is exact for polynomials of the third degree.
+  constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
+  double factor = 0;
+  for (int c = 0; c < 5; ++c) {
+    const double a = c < 4 ? kInset + kBetween * (c & 1) : .5;
+    const double b = c < 4 ? kInset + kBetween * (c >> 1) : .5;
+    const V3d at = r.at(a, b), way = at - point;
+    const double squared = way.length2();
+    const double here = way.dot(normal), there = -way.dot(r.normal);
+    if (here > 0 && there > 0 && counts(at)) factor += here * there / (squared * squared);
+  }
+  return factor / 5 * filled / kPi;
+}
+
+// The density per sr, in a direction from a point, of the directions to uniformly distributed points on the
+// rectangle's front.
+double densityTo(const Rectangle& r, const V3d& point, const V3d& direction);
 
 // The projected area (square world units) of openings for light that enters in this direction (unit). Their
 // normals point to the dark side.

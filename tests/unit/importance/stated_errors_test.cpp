@@ -211,6 +211,7 @@ TEST(StatedErrors, OfAWindowInAMirrorWall) {
   EXPECT_GT(honest.trueOverStated, .8);
   EXPECT_LT(honest.trueOverStated, 1.25);
   EXPECT_LT(honest.beyondThree, .02);
+  EXPECT_LT(honest.rms, .025) << "5% without directions to the window's image";
   EXPECT_LT(honestyOf(answers, 1.5).trueOverStated, .8) << "would not see half as much again";
 }
 

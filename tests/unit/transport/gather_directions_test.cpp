@@ -57,6 +57,44 @@ TEST(GatherDirections, AreAimedWhereThatPays) {
       << "the window fills half of the view";
 }
 
+// A window is seen in a mirror on the west wall, and light comes by the mirror to the east wall.
+TEST(GatherDirections, AreAimedAtImagesOfOpenings) {
+  const std::string mirror =
+      "void metal chrome 0 0 5 .9 .9 .9 1 0\n"
+      "chrome polygon m 0 0 12 .02 .5 .1 .02 4.5 .1 .02 4.5 2.5 .02 .5 2.5\n";
+  const Traced room(kRoomWithAWindow + mirror, unbiased(1));
+  const OpeningImages* const images = room.transport().aims().images;
+  ASSERT_TRUE(images);
+  const Aims aims{nullptr, nullptr, nullptr, images};
+  const V3d east(3, 2.5, 1.2), west(-1, 0, 0), floor(1.5, .2, 0), up(0, 0, 1);
+  EXPECT_FALSE(areAimed({aims, floor, up, up, 64})) << "the image lies beside the mirror";
+  ASSERT_TRUE(areAimed({aims, east, west, west, 64}));
+  const GatherDirections aimed(aims, east, west, west, 64), unaimed(Aims{}, east, west, west, 64);
+  PathTracer tracer = room.tracerWith(Aims{});
+  const auto bright = [&](const GatherDirections& directions, int n, Sample* parts) {
+    Random random(1);
+    Sample light;
+    for (int i = 0; i < n; ++i) {
+      double found = 0, all = 0;
+      directions.draw(8, random, [&](const V3d& direction, double part) {
+        const double seen = tracer.trace(east, direction, 0, 1).value.color.y;
+        found += part * (seen > .85 && seen < .95);  // the sky has 1, and .9 in the mirror
+        all += part;
+      });
+      light.add(found);
+      if (parts) parts->add(all);
+    }
+    return light;
+  };
+  Sample parts;
+  const Sample some = bright(aimed, 4000, &parts), others = bright(unaimed, 4000, nullptr);
+  expectMean(parts, 1, 1.05);
+  EXPECT_NEAR(some.mean(), others.mean(), 4 * others.standardError());
+  EXPECT_GT(std::abs(1.5 * some.mean() - others.mean()), 4 * others.standardError())
+      << "would not see half as much again";
+  EXPECT_LT(some.standardError(), .3 * others.standardError());
+}
+
 // A room whose openings seem dark inside: no mean radiance is known, and no highlight may be in view.
 TEST(GatherDirections, AreNotAimedWhereNothingIsSeen) {
   const Traced room(highlight_scene::kMaterials + "chrome sphere ball 0 0 4 2 2 1 .1\n" +
