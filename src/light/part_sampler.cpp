@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "light/sources.h"
@@ -65,6 +66,12 @@ V3d onDisk(const V3d& center, const PlaneLight& plane, double s, double t) {
 std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const SourcePart& p) {
   const auto at = [&](double s, double t) { return onParallelogram(center, plane, s, t); };
   return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
+}
+
+// The signed solid angles (sr) of the triangles on both sides of a diagonal.
+std::pair<double, double> halvesOf(const std::array<V3d, 4>& corners, const V3d& point) {
+  return {triangleSolidAngle(corners[0], corners[1], corners[2], point),
+          triangleSolidAngle(corners[0], corners[2], corners[3], point)};
 }
 
 // True if a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
@@ -353,8 +360,7 @@ void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   // would then fill half the sky.
   if (height <= kSamePlace) return;
   std::array<V3d, 4> aims = cornersOf(source_.center, plane, part);
-  const double below = triangleSolidAngle(aims[0], aims[1], aims[2], point_);
-  const double above = triangleSolidAngle(aims[0], aims[2], aims[3], point_);
+  const auto [below, above] = halvesOf(aims, point_);
   const double omega = std::abs(below + above);
   for (V3d& corner : aims) corner = (corner - point_).normalized();
   const double u = random_.uniform() * omega, v = random_.uniform();
@@ -417,6 +423,17 @@ void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towar
                                Random& random, std::vector<SourceSample>& samples) const {
   const LightSource& source = sources_[index];
   PartSampler(source, index, scene_, point, how, random, samples).sample(towards);
+}
+
+double LightSources::nearSolidAngle(LightId index, const V3d& point) const {
+  const LightSource& source = sources_[index];
+  const auto* plane = source.as<PlaneLight>();
+  if (!plane || !std::holds_alternative<PlaneLight::Parallelogram>(plane->map) ||
+      !isNear(*plane, {}, source.center - point) ||
+      plane->normal.dot(point - source.center) <= kSamePlace)
+    return 0;
+  const auto [below, above] = halvesOf(cornersOf(source.center, *plane, {}), point);
+  return std::abs(below + above);
 }
 
 }  // namespace rsphere

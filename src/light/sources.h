@@ -65,6 +65,9 @@ class LightSources {
     if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
+  // The solid angle (sr) of a near plane source as seen from a point, whose undivided samples (jitter 1) are
+  // uniform by solid angle. 0 for other sources; those of other plane sources are uniform by area.
+  double nearSolidAngle(LightId source, const V3d& point) const;
 
  private:
   // Whether a point surely lies outside a virtual source's beam, despite rounding. Uses no square root.

@@ -357,7 +357,7 @@ double LightVertices::shadowRaysTo(const VisibleVertex& v) const {
   same.cosine = v.cosineAtSource;
   same.source = v.source;
   const double rays =
-      starts_.onSources.shadowRaysOver(same, v.normal, weights[static_cast<size_t>(own)] / sum);
+      starts_.onSources.shadowRaysOver(same, v.vertex.point(), v.normal, weights[static_cast<size_t>(own)] / sum);
   known.store(rays, std::memory_order_relaxed);
   return rays;
 }
@@ -447,7 +447,9 @@ double NearLight::closeShare(double distance, double fromEye) const {
   constexpr double kRest = 1. / 101;
   const double close = tuning::LightVertices::kWidth * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
-  return std::max(0., (share - kRest) / (1 - kRest));
+  // Places next to the eye are left to the rays: glances are dense there, while light vertices are a
+  // few centimeters apart, so that nearly all answers would miss their light.
+  return std::max(0., (share - kRest) / (1 - kRest)) * (1 - this->share(fromEye));
 }
 
 }  // namespace rsphere

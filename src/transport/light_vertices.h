@@ -34,7 +34,7 @@ struct NearLight {
   double share(double distance) const { return width * width / (distance * distance + width * width); }
   // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
   // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
-  // eye.
+  // eye. Joins are bounded by the same kernel as light between diffuse surfaces.
   double closeShare(double distance, double fromEye) const;
 };
 

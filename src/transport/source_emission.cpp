@@ -173,12 +173,21 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
 }
 
 static_assert(kLightForms == 8, "Where are shadow rays aimed?");
-// The density (1/m2) of the points on a source at which shadow rays from a place are aimed; 0 if it is
-// unknown. distance: from the place to the point. cosine: between the ray and the normal at that point.
-double SourceEmission::aimedDensity(LightId light, double distance, double cosine) const {
-  const LightSource& source = prepared_.lights().all()[light];
-  if (source.isDistant()) return 1;
-  if (const auto* plane = source.as<PlaneLight>()) return 1 / plane->area;
+bool SourceEmission::isAimedAt(LightId source) const {
+  const LightSource& light = prepared_.lights().all()[source];
+  return senders_[source].even && (light.isDistant() || light.as<PlaneLight>() || light.as<BallLight>());
+}
+
+// The density (1/m2) of the points on a source at which shadow rays from a place are aimed, at the point of a
+// sample; 0 if it is unknown. cosine: between the ray and the normal at that point. REQUIRES a source that is
+// not distant.
+double SourceEmission::aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const {
+  const LightSource& source = prepared_.lights().all()[sample.source];
+  const double distance = sample.distance;
+  if (const auto* plane = source.as<PlaneLight>()) {
+    const double near = prepared_.lights().nearSolidAngle(sample.source, place);
+    return near > 0 ? cosine / (distance * distance * near) : 1 / plane->area;
+  }
   if (!source.as<BallLight>()) return 0;
   // Shadow rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its
   // center.
@@ -188,7 +197,7 @@ double SourceEmission::aimedDensity(LightId light, double distance, double cosin
   return cosine / (distance * distance * solidAngle);
 }
 
-double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& normal,
+double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
                                       double probability) const {
   if (prepared_.lights().all()[sample.source].isDistant()) {
     const Sender& sender = senders_[sample.source];
@@ -200,7 +209,7 @@ double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& nor
   const double cosine = std::abs(sample.cosine), d = sample.distance;
   const double lightPaths =
       senders_[sample.source].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
-  return lightPaths > 0 ? probability * aimedDensity(sample.source, d, cosine) / lightPaths : 0;
+  return lightPaths > 0 ? probability * aimedDensity(sample, place, cosine) / lightPaths : 0;
 }
 
 }  // namespace rsphere

@@ -47,11 +47,12 @@ class SourceEmission {
   // diverges from a focus behind it.
   double divergence(LightId source, double distance) const;
   // Whether the density of shadow rays towards the source is known.
-  bool isAimedAt(LightId source) const { return senders_[source].even && aimedDensity(source, 1, 1) > 0; }
+  bool isAimedAt(LightId source) const;
   // The density of shadow rays from a place to a point on an even source, divided by the density of light
   // paths through both (m2). normal: at the place (unit). probability: of selecting this source for a shadow
   // ray.
-  double shadowRaysOver(const SourceSample& sample, const V3d& normal, double probability) const;
+  double shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
+                        double probability) const;
   // The image of a source in a mirror; kNone if there is none, or if the image lights nothing.
   LightId imageOf(LightId source, SurfaceId mirror) const;
 
@@ -75,7 +76,7 @@ class SourceEmission {
   Way way(LightId source, Random& random, FunctionScratch& scratch) const;
   Leaving leaveDistant(LightId source, Random& random) const;
   double triedPower(LightId source) const;
-  double aimedDensity(LightId source, double distance, double cosine) const;
+  double aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const;
   void share();
 
   const PreparedScene& prepared_;

@@ -132,7 +132,7 @@ Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& r
   if (isBlack(arrives)) return {};
   const double over =
       seen.density > 0
-          ? vertices_.emission().shadowRaysOver(to.sample, at.normal, to.probability) * seen.density
+          ? vertices_.emission().shadowRaysOver(to.sample, at.point, at.normal, to.probability) * seen.density
           : 0;
   const double joined = over > 0
                             ? std::min(1., seen.joins * joinedReflectance(*at.material, at.normal, seen.view,
