@@ -93,8 +93,9 @@ std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
   if (unlit_.points > 0 && !isDark(prepared))
     texts.push_back(fmt::format(
         "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the "
-        "points, and whether they lie inside of something",
-        prepared.scene().importance ? "importance" : "light", unlit_.points, points_, unlit_.worst + 1));
+        "points, and whether they lie inside of something{}",
+        prepared.scene().importance ? "importance" : "light", unlit_.points, points_, unlit_.worst + 1,
+        prepared.scene().importance ? ", or behind the goals, which emit from their front" : ""));
   if (missed_.points > 0)
     texts.push_back(fmt::format(
         "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "

@@ -357,7 +357,8 @@ double LightVertices::shadowRaysTo(const VisibleVertex& v) const {
   same.cosine = v.cosineAtSource;
   same.source = v.source;
   const double rays =
-      starts_.onSources.shadowRaysOver(same, v.vertex.point(), v.normal, weights[static_cast<size_t>(own)] / sum);
+      starts_.onSources.shadowRaysOver(same, v.vertex.point(), v.normal,
+                                       weights[static_cast<size_t>(own)] / sum);
   known.store(rays, std::memory_order_relaxed);
   return rays;
 }

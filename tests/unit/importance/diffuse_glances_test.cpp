@@ -59,6 +59,27 @@ TEST(DiffuseGlances, IntegratingSphere) {
   }
 }
 
+// All walls of a closed box are goals that reflect .6: importance is the same everywhere, 1 + .6 + .6^2 with
+// one bounce. In corners and along edges, a millimeter from goals that are meters wide, nearly all light
+// comes from close by.
+TEST(DiffuseGlances, CornersAndEdgesOfABoxOfGoals) {
+  const std::vector<std::string> goals{"w"};
+  const std::string box =
+      "void plastic w 0 0 5 .6 .6 .6 0 0\n"
+      "w polygon a 0 0 12 0 0 0 4 0 0 4 4 0 0 4 0\nw polygon b 0 0 12 0 0 4 0 4 4 4 4 4 4 0 4\n"
+      "w polygon c 0 0 12 0 0 0 0 0 4 4 0 4 4 0 0\nw polygon d 0 0 12 0 4 0 4 4 0 4 4 4 0 4 4\n"
+      "w polygon e 0 0 12 0 0 0 0 4 0 0 4 4 0 0 4\nw polygon f 0 0 12 4 0 0 4 0 4 4 4 4 4 4 0\n";
+  const LampSetting setting(buildScene(rad::readSceneText(box, "box.rad"), {}, goals), 1);
+  ASSERT_TRUE(setting.fromBothEnds());
+  for (const V3d& point : {V3d(2, .01, .01), V3d(2, .001, .001), V3d(.01, .01, .01), V3d(.001, .001, .001)}) {
+    Sample sample;
+    for (uint64_t rotation = 0; rotation < 8; ++rotation)
+      sample.add(setting.at(point, Weights::silhouettes, 256, rotation));
+    SCOPED_TRACE(fmt::format("{} {} {}", point.x, point.y, point.z));
+    expectMean(sample, 1 + .6 + .36, 1.01);
+  }
+}
+
 const char* const kBareRoom =
     "void plastic wall 0 0 5 .6 .55 .5 0 0\n"
     "wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n"
