@@ -86,13 +86,13 @@ LightVertex vertexAt(const PlainPlace& at, double power, int bounces, LightVerte
 double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, const V3d& toSource) {
   const double color = brightness(m.color), diffuse = color * (1 - m.specularity);
   if (!hasRoughHighlight(m)) return diffuse;
-  // Ward's lobe around the halfway vector, without its dependence on the cosines.
+  // Ward's lobe around the halfway vector, without Fresnel's rise at grazing angles.
   const V3d half = toSource - view;
-  const double along = half.dot(normal), square = along * along;
+  const double along = half.dot(normal), square = along * along, ratio = half.length2() / square;
   if (!(along > 0)) return diffuse;
   const double a2 = m.roughness * m.roughness;
   return diffuse +
-         m.specularity * (m.metal ? color : 1) * std::exp((1 - half.length2() / square) / a2) / (4 * a2);
+         m.specularity * (m.metal ? color : 1) * std::exp((1 - ratio) / a2) * ratio / (square * a2);
 }
 
 // One light path. It adds its vertices to the lists.
