@@ -139,8 +139,8 @@ std::vector<Box3d> Glints::boxesOf(std::span<const Ball> balls) {
   return boxes;
 }
 
-// Whether `at` sees the source at the middle of a part, or halfway from there to one of its corners (in a
-// rectangle, the middles of its quarters).
+// Whether `at` sees the source at the middle of a part, or on the way from there to its corners and to the
+// middles of its edges, halfway or near the end. Desks and chairs hide much of a source at the floor.
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
@@ -148,8 +148,14 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
     const double far = source.isDistant() ? kFarAway : direction.length();
     return prepared_.tracer().shadow(at, direction.normalized(), far, source.surface) != Shadow::blocked;
   };
-  return seen(middle) || std::any_of(corners.begin(), corners.end(),
-                                     [&](const V3d& corner) { return seen((middle + corner) / 2); });
+  if (seen(middle)) return true;
+  for (const double outward : {.5, .9})
+    for (const double along : {0., .5})
+      for (size_t i = 0; i < corners.size(); ++i) {
+        const V3d edge = corners[i] + along * (corners[(i + 1) % corners.size()] - corners[i]);
+        if (seen(middle + outward * (edge - middle))) return true;
+      }
+  return false;
 }
 
 // Adds the images of one light source in one ball.

@@ -28,8 +28,8 @@ class Glints {
 
   // The images visible from a point (world); the parts of one image are successive. Omitted are images whose
   // solid angle (sr) times squared brightness is estimated to be below `least`, and images that are hidden
-  // according to shadow rays, one from the point and up to five to the source. A point in or on a ball sees
-  // no image in that ball. The result depends only on the arguments.
+  // according to shadow rays, one from the point and up to 17 to a rectangular part of the source. A point in
+  // or on a ball sees no image in that ball. The result depends only on the arguments.
   std::vector<Glint> find(const V3d& point, double least) const;
 
  private:
