@@ -60,20 +60,29 @@ size_t pathsFor(const SphereOptions& options, bool daylit) {
 // multiple importance sampling can evaluate it where a glance hits.
 class DiffuseGlances::Joins {
  public:
-  Joins(const LightVertices& vertices, const V3d& point, double expected, double glances)
-      : vertices_(vertices), point_(point), density_(glances / (4 * kPi)) {
-    const double radius = tuning::LightVertices::kWidth * vertices.nearLight().meanLength;
+  Joins(const VertexLight& light, const V3d& point, double expected, double glances)
+      : light_(light), vertices_(light.vertices()), point_(point), density_(glances / (4 * kPi)) {
+    const double radius = tuning::LightVertices::kWidth * vertices_.nearLight().meanLength;
     radius2_ = radius * radius;
-    const auto& visible = vertices.visible().all();
+    const auto& visible = vertices_.visible().all();
     shown_.resize(visible.size());
     double sum = 0;
-    vertices.visible().from(point, [&](size_t begin, size_t end) {
+    vertices_.visible().from(point, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         shown_[i] = static_cast<float>(shownBy(visible[i]));
         sum += shown_[i];
       }
     });
     factor_ = sum > 0 ? expected / sum : 0;
+  }
+
+  // The expected number of joins from each batch of light paths.
+  std::array<double, LightVertex::kBatches> expected() const {
+    std::array<double, LightVertex::kBatches> sums{};
+    const auto& visible = vertices_.visible().all();
+    for (size_t i = 0; i < shown_.size(); ++i)
+      if (shown_[i] > 0) sums[visible[i].vertex.batch] += shareOf(shown_[i]);
+    return sums;
   }
 
   double shareOf(double shown) const { return std::min(1., factor_ * shown); }
@@ -112,7 +121,11 @@ class DiffuseGlances::Joins {
     at.flat = v.flat;
     at.pattern = v.pattern;
     const double arriving = -v.direction.dot(at.normal);
-    const double weight = 1 / (density_ * cosine / square * vertices_.shadowRaysTo(v) + share);
+    SourceSample sample;
+    sample.direction = -v.direction;
+    sample.source = v.source;
+    const double others = vertices_.shadowRaysTo(v) + light_.lobesOver(at, direction, sample);
+    const double weight = 1 / (density_ * cosine / square * others + share);
     return v.power * shownOfSource(at, direction, -v.direction, 1) * (cosine / square * weight / arriving);
   }
 
@@ -129,6 +142,7 @@ class DiffuseGlances::Joins {
     return reflected * facing / distance / (square + radius2_);
   }
 
+  const VertexLight& light_;
   const LightVertices& vertices_;
   V3d point_;
   double density_;  // of glances, per sr
@@ -186,7 +200,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& trac
   const std::shared_ptr<const VertexLight> own = light(set);
   const VertexLight& both = *own;
   const auto n = static_cast<double>(glances_.size());
-  const Joins joins(both.vertices(), set.point(), joins_, n);
+  const Joins joins(both, set.point(), joins_, n);
   const SpectralSampling* const sampling = prepared_.options().sampling;
   Records records(zones_ ? zones_->count() + 1 : 1);
   for (VertexLight::Record& record : records) record.sampling = sampling;
@@ -223,6 +237,7 @@ VertexLight::Record& DiffuseGlances::recordFor(const V3d& direction, Records& re
 void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records& records,
                               Found& found) const {
   std::optional<Irradiance> last;
+  std::vector<Joined> all;
   Random random = randomOf(set, GlanceStream::joins);
   joins.draw(random, [&](const VisibleVertex& v, double share, const V3d& direction, double distance) {
     const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
@@ -231,6 +246,7 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
     found.moments.add(direction, part, sampling);
     if (!neighbours_) return;
     recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
+    all.push_back({part, v.vertex.batch, 1 - share});
     // Successive vertices are close together, so the difference of their contributions estimates the variance
     // due to choosing vertices at random.
     if (last) {
@@ -240,6 +256,30 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
     }
     last = part;
   });
+  if (neighbours_) found.shared = evened(joins, all);
+}
+
+// The correction of the shared error of all joins if each batch had the expected number of them. The number
+// is random, but the same for all batches together. As all joins contribute nearly the same, it would hide
+// how the batches differ.
+SharedError DiffuseGlances::evened(const Joins& joins, std::span<const Joined> all) const {
+  if (all.empty()) return {};
+  const SpectralSampling* const sampling = prepared_.options().sampling;
+  std::array<double, LightVertex::kBatches> more{};
+  Irradiance sum;
+  for (const Joined& one : all) {
+    sum += one.part;
+    ++more[one.batch];
+  }
+  const Irradiance mean = sum / static_cast<double>(all.size());
+  const auto expected = joins.expected();
+  SharedError change{std::vector<Irradiance>(more.size()), {}};
+  for (size_t b = 0; b < more.size(); ++b) change.batches[b] = mean * (expected[b] - more[b]);
+  for (const Joined& one : all) {
+    change.chosen += Variance::of(one.part - mean, sampling) * one.notChosen;
+    change.chosen += Variance::of(one.part, sampling) * -one.notChosen;
+  }
+  return change;
 }
 
 Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing& by) const {

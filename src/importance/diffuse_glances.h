@@ -73,6 +73,12 @@ class DiffuseGlances {
   // One record for each zone and one for directions in no zone; a single one without zones.
   using Records = std::vector<VertexLight::Record>;
   VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
+  struct Joined {
+    Irradiance part;
+    uint8_t batch;
+    double notChosen;  // the share of such vertices that are not joined
+  };
+  SharedError evened(const Joins& joins, std::span<const Joined> all) const;
   void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
   Radiance glance(const V3d& point, const V3d& direction, Glancing& by) const;
 

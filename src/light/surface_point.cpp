@@ -8,6 +8,14 @@
 #include "scene/frame.h"
 
 namespace rsphere {
+
+template <class Numbers>
+V3d uniformDirection(Numbers& random) {
+  const double z = 1 - 2 * random.uniform(), angle = 2 * std::numbers::pi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - z * z));
+  return V3d(r * std::cos(angle), r * std::sin(angle), z);
+}
+
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -16,7 +24,8 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 // on which the ray starts.
 double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); }
 
-SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& random) {
+template <class Numbers>
+SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Numbers& random) {
   const auto v = all.subspan(polygon.firstVertex, polygon.vertices);
   const double area = areaOf(polygon, all);
   double left = random.uniform() * 2 * area;
@@ -30,12 +39,14 @@ SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Random& r
           clearanceOf(std::sqrt(area))};
 }
 
-SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Random& random) {
+template <class Numbers>
+SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Numbers& random) {
   const V3d out = uniformDirection(random);
   return {sphere.center + sphere.radius * out, sphere.inward ? -out : out, clearanceOf(sphere.radius)};
 }
 
-SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Random& random) {
+template <class Numbers>
+SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Numbers& random) {
   V3d x, y;
   frame(cone.axis, x, y);
   const double s = random.uniform(), angle = kTwoPi * random.uniform();
@@ -46,7 +57,8 @@ SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Random& random) {
           cone.inward ? -normal : normal, clearanceOf(std::max(cone.radius0, cone.radius1))};
 }
 
-SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
+template <class Numbers>
+SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Numbers& random) {
   V3d x, y;
   frame(ring.normal, x, y);
   const double inner = ring.inner * ring.inner, outer = ring.outer * ring.outer;
@@ -57,16 +69,16 @@ SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Random& random) {
 
 }  // namespace
 
-V3d uniformDirection(Random& random) {
-  const double z = 1 - 2 * random.uniform(), angle = kTwoPi * random.uniform();
-  const double r = std::sqrt(std::max(0., 1 - z * z));
-  return V3d(r * std::cos(angle), r * std::sin(angle), z);
-}
-
-SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random) {
+template <class Numbers>
+SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Numbers& random) {
   return match(
       shape, [&](const PlainShape auto& form) { return pointOn(form, vertices, random); },
       [](const Distant&) { return SurfacePoint{}; }, [](const NestedShape auto&) { return SurfacePoint{}; });
 }
+
+template V3d uniformDirection(Random&);
+template V3d uniformDirection(ScrambledPoint&);
+template SurfacePoint samplePoint(ShapeRef, std::span<const V3d>, Random&);
+template SurfacePoint samplePoint(ShapeRef, std::span<const V3d>, ScrambledPoint&);
 
 }  // namespace rsphere

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "scene/random.h"
+#include "scene/scrambled_sequence.h"
 #include "scene/shape.h"
 
 namespace rsphere {
@@ -16,10 +17,12 @@ struct SurfacePoint {
 
 // A random point, uniform by area on spheres, cylinders, rings and convex polygons, and uniform along the
 // axis on cones. For a concave polygon the point may lie outside. REQUIRES that the shape is not Distant.
-// vertices: Scene::vertices.
-SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Random& random);
+// vertices: Scene::vertices. Numbers: Random or ScrambledPoint.
+template <class Numbers>
+SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Numbers& random);
 
 // A random direction (unit), uniform over the sphere.
-V3d uniformDirection(Random& random);
+template <class Numbers>
+V3d uniformDirection(Numbers& random);
 
 }  // namespace rsphere

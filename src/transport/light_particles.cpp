@@ -5,14 +5,8 @@
 
 #include "base/constants.h"
 #include "light/surface_point.h"
-#include "shade/scattering.h"
 
 namespace rsphere {
-
-V3d sentFrom(const V3d& normal, Random& random) {
-  const double u1 = random.uniform(), u2 = random.uniform();
-  return diffuseDirection(normal, u1, u2);
-}
 
 double powerOf(const Scene& scene, const LightSource& light, double reach) {
   const Surface& surface = scene.surfaces[light.surface];

@@ -2,6 +2,7 @@
 // Particles that carry light from the sources of a scene, all with the same power.
 #include "light/sources.h"
 #include "scene/random.h"
+#include "shade/scattering.h"
 #include "trace/tracer.h"
 #include "transport/function_ref.h"
 
@@ -22,6 +23,10 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
                    SentParticle each);
 
 // A random direction (unit) on the front side, distributed like diffusely reflected light.
-V3d sentFrom(const V3d& normal, Random& random);
+template <class Numbers>
+V3d sentFrom(const V3d& normal, Numbers& random) {
+  const double u1 = random.uniform(), u2 = random.uniform();
+  return diffuseDirection(normal, u1, u2);
+}
 
 }  // namespace rsphere

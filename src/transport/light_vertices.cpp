@@ -91,8 +91,7 @@ double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, co
   const double along = half.dot(normal), square = along * along, ratio = half.length2() / square;
   if (!(along > 0)) return diffuse;
   const double a2 = m.roughness * m.roughness;
-  return diffuse +
-         m.specularity * (m.metal ? color : 1) * std::exp((1 - ratio) / a2) * ratio / (square * a2);
+  return diffuse + m.specularity * (m.metal ? color : 1) * std::exp((1 - ratio) / a2) * ratio / (square * a2);
 }
 
 // One light path. It adds its vertices to the lists.
@@ -104,7 +103,7 @@ class LightVertices::Path {
         all_(all),
         outdoors_(outdoors),
         random_(mixBits(mixBits(seed) + number)),
-        batch_(number % LightVertex::kBatches) {}
+        start_(number, seed, random_) {}
 
   struct Course {
     double firstLength = 0;          // of the first segment, world units; 0 if the path hit nothing
@@ -124,6 +123,16 @@ class LightVertices::Path {
   bool reflect(const PlainPlace& at);
   bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
+  // The batch of the path, and the numbers that place its start. Each batch has a sequence of its own, so
+  // that the differences between batches show the error.
+  struct Start {
+    Start(size_t number, uint64_t seed, Random& random)
+        : batch(number % LightVertex::kBatches),
+          numbers(static_cast<uint32_t>(number / LightVertex::kBatches), mixBits(~mixBits(seed) + batch),
+                  random) {}
+    size_t batch;
+    ScrambledPoint numbers;
+  };
   // The current segment of the path.
   struct Beam {
     V3d origin, direction;
@@ -145,7 +154,7 @@ class LightVertices::Path {
   LightVertices& all_;
   const OutdoorParts* outdoors_;
   Random random_;
-  size_t batch_;
+  Start start_;
   Beam beam_;
   Past past_;
   FunctionScratch scratch_;
@@ -214,7 +223,7 @@ bool LightVertices::Path::leave(double where) {
   if (past_.source == kNone) return false;
   if (!prepared_.lights().all()[past_.source].isDistant())
     beam_.start = prepared_.lights().all()[past_.source].surface;
-  const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, random_, scratch_);
+  const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, start_.numbers, scratch_);
   beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
   beam_.direction = way.direction;
   past_.cosineAtSource = way.from.normal.dot(beam_.direction);
@@ -277,7 +286,7 @@ void LightVertices::Path::arrive(const PlainPlace& at) {
   const double reflected = std::abs(brightness(arriving)) * (1 - m.specularity);
   addVisible(at, reflected);
   if (!(reflected > 0) || past_.bounces + 1 > prepared_.options().ambientBounces) return;
-  all_.all_.push_back(vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_));
+  all_.all_.push_back(vertexAt(at, reflected, past_.bounces + 1, past_.way, start_.batch));
   all_.arriving_.push_back({std::move(arriving), at.material});
 }
 
@@ -291,8 +300,8 @@ void LightVertices::Path::addVisible(const PlainPlace& at, double reflected) {
     return;
   if (!(reflected > 0) && !(direct && hasRoughHighlight(*at.material))) return;
   const Irradiance power = direct ? beam_.power : Irradiance(beam_.power.color * at.color());
-  all_.visible_.add({vertexAt(at, reflected, past_.bounces + 1, past_.way, batch_), power, beam_.direction,
-                     at.material, at.pattern, at.flat, beam_.length, at.normal, past_.source,
+  all_.visible_.add({vertexAt(at, reflected, past_.bounces + 1, past_.way, start_.batch), power,
+                     beam_.direction, at.material, at.pattern, at.flat, beam_.length, at.normal, past_.source,
                      past_.cosineAtSource});
 }
 

@@ -30,8 +30,12 @@ struct NearLight {
   double meanLength = 1;  // of light paths from the sources to the first surfaces
 
   // The fraction of the light between two diffuse surfaces at this distance that rays estimate, because
-  // vertices would make it too noisy.
-  double share(double distance) const { return width * width / (distance * distance + width * width); }
+  // vertices would make it too noisy. It falls with the fourth power of the distance: the few rays that meet
+  // something bright far away would be noisier than the vertices there.
+  double share(double distance) const {
+    const double ratio = distance * distance / (width * width);
+    return 1 / (1 + ratio * ratio);
+  }
   // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
   // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
   // eye. Joins are bounded by the same kernel as light between diffuse surfaces.

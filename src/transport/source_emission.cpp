@@ -15,7 +15,8 @@ const Distant& distantOf(const Scene& scene, const LightSource& light) {
 }
 
 // A random direction (unit), uniform within a cone of this solid angle (sr).
-V3d withinCone(const V3d& axis, double solidAngle, Random& random) {
+template <class Numbers>
+V3d withinCone(const V3d& axis, double solidAngle, Numbers& random) {
   const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
   const double r = std::sqrt(std::max(0., 1 - height * height));
   V3d x, y;
@@ -90,7 +91,7 @@ LightId SourceEmission::sourceAt(double share) const {
   return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));
 }
 
-SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
+SourceEmission::Leaving SourceEmission::leave(LightId source, ScrambledPoint& random,
                                               FunctionScratch& scratch) const {
   const Sender& sender = senders_[source];
   if (prepared_.lights().all()[source].isDistant()) return leaveDistant(source, random);
@@ -110,7 +111,7 @@ SourceEmission::Leaving SourceEmission::leave(LightId source, Random& random,
   return chosen;
 }
 
-SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, Random& random) const {
+SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, ScrambledPoint& random) const {
   const Sender& sender = senders_[source];
   const LightSource& light = prepared_.lights().all()[source];
   const Portals& portals = surfaces_.portals();
@@ -128,7 +129,8 @@ SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, Random& ran
   return way;
 }
 
-SourceEmission::Way SourceEmission::way(LightId source, Random& random, FunctionScratch& scratch) const {
+template <class Numbers>
+SourceEmission::Way SourceEmission::way(LightId source, Numbers& random, FunctionScratch& scratch) const {
   const Scene& scene = prepared_.scene();
   const LightSource& light = prepared_.lights().all()[source];
   Way way{samplePoint(scene.surfaces[light.surface].shape, scene.vertices, random)};
@@ -210,6 +212,12 @@ double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& pla
   const double lightPaths =
       senders_[sample.source].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
   return lightPaths > 0 ? probability * aimedDensity(sample, place, cosine) / lightPaths : 0;
+}
+
+double SourceEmission::lobesOver(const SourceSample& sample, const V3d& normal, double density) const {
+  // Both densities have the factor cosine / d^2 at the source.
+  const double lightPaths = senders_[sample.source].density * normal.dot(sample.direction) / kPi;
+  return lightPaths > 0 ? density / lightPaths : 0;
 }
 
 }  // namespace rsphere

@@ -37,7 +37,7 @@ class SourceEmission {
     V3d direction{0, 0, 1};  // unit
     Irradiance power;        // of the path, W
   };
-  Leaving leave(LightId source, Random& random, FunctionScratch& scratch) const;
+  Leaving leave(LightId source, ScrambledPoint& random, FunctionScratch& scratch) const;
 
   // The mean power of a path, W (brightness). All paths from even sources have this power, unless some
   // sources are preferred.
@@ -53,6 +53,8 @@ class SourceEmission {
   // ray.
   double shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
                         double probability) const;
+  // The same for samples of a lobe with this density per sr.
+  double lobesOver(const SourceSample& sample, const V3d& normal, double density) const;
   // The image of a source in a mirror; kNone if there is none, or if the image lights nothing.
   LightId imageOf(LightId source, SurfaceId mirror) const;
 
@@ -73,8 +75,9 @@ class SourceEmission {
     Radiance radiance{};
     double weight = 1;  // density of a diffuse emitter's light here, divided by the density of candidates
   };
-  Way way(LightId source, Random& random, FunctionScratch& scratch) const;
-  Leaving leaveDistant(LightId source, Random& random) const;
+  template <class Numbers>
+  Way way(LightId source, Numbers& random, FunctionScratch& scratch) const;
+  Leaving leaveDistant(LightId source, ScrambledPoint& random) const;
   double triedPower(LightId source) const;
   double aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const;
   void share();

@@ -67,7 +67,7 @@ double weightOf(const LightVertex& v, const VertexClusters::Receiver& to, double
   const double here = way.dot(to.normal), there = -way.dot(v.normal());
   if (!(here > 0) || !(there > 0) || v.bounces > to.bounces) return 0;
   const double square = way.length2();
-  return v.power * here * there / (square * (square + (v.isUnbounded() ? 0 : width2)));
+  return v.power * here * there / (square * square + (v.isUnbounded() ? 0 : width2 * width2));
 }
 
 // The mean of max(h, 0) for h uniform between height - half and height + half. half: above 0.

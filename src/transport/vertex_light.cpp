@@ -6,6 +6,7 @@
 #include "base/colorimetry.h"
 #include "base/constants.h"
 #include "shade/scattering.h"
+#include "transport/shared_highlights.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -122,25 +123,80 @@ Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample
   }
 }
 
+// Whether a sample of the lobe estimates direct light too. Of weak highlights, shadow rays find enough.
+bool VertexLight::samplesLobe(const PlainPlace& at) const {
+  return surfaces_.portals().empty() && hasRoughHighlight(*at.material) &&
+         at.material->specularity >= tuning::VertexLight::kStrong;
+}
+
+double VertexLight::lobesOver(const PlainPlace& at, const V3d& view, const SourceSample& sample) const {
+  if (!samplesLobe(at) || !sharesHighlights(prepared_, sample.source) ||
+      !vertices_.emission().isAimedAt(sample.source))
+    return 0;
+  const Interaction seen = plainInteraction(view, at.normal, at.flat, at.pattern);
+  const double density = reflectedDensity(scatter(*at.material, seen, 0), seen, sample.direction);
+  return vertices_.emission().lobesOver(sample, at.normal, density);
+}
+
+// The share of a direct estimate in the light from a direction, by the balance heuristic. shadowRays, lobes:
+// densities of both estimates, divided by that of light paths; the share is that of the first.
+double VertexLight::shareOf(const PlainPlace& at, const Seen& seen, const SourceSample& sample,
+                            double shadowRays, double lobes) const {
+  if (!(shadowRays > 0)) return 0;
+  const double joined = seen.density > 0
+                            ? std::min(1., seen.joins * joinedReflectance(*at.material, at.normal, seen.view,
+                                                                          sample.direction)) /
+                                  seen.density
+                            : 0;
+  return shadowRays / (shadowRays + lobes + joined);
+}
+
 Radiance VertexLight::directOf(const PlainPlace& at, const Seen& seen, Random& random,
                                Scratch& scratch) const {
   // The density is only known for samples of the whole source.
-  const double finest = seen.density > 0 ? 0 : prepared_.options().sourceSubstructuring;
+  const bool bySeveral = seen.density > 0 || samplesLobe(at);
+  const double finest = bySeveral ? 0 : prepared_.options().sourceSubstructuring;
+  const Radiance lobe = samplesLobe(at) ? ofLobe(at, seen, random, scratch) : Radiance();
   const Chosen to = chooseSource(at, finest, random, scratch);
-  if (!(to.probability > 0)) return {};
+  if (!(to.probability > 0)) return lobe;
   const Radiance arrives = arriving(at, to.sample, scratch.functions);
-  if (isBlack(arrives)) return {};
+  if (isBlack(arrives)) return lobe;
   const double over =
-      seen.density > 0
-          ? vertices_.emission().shadowRaysOver(to.sample, at.point, at.normal, to.probability) * seen.density
-          : 0;
-  const double joined = over > 0
-                            ? std::min(1., seen.joins * joinedReflectance(*at.material, at.normal, seen.view,
-                                                                          to.sample.direction))
-                            : 0;
-  const double share = over > 0 ? over / (over + joined) : 1;
-  return arrives * shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle, seen.shown) *
-         (share / to.probability);
+      bySeveral ? vertices_.emission().shadowRaysOver(to.sample, at.point, at.normal, to.probability) : 0;
+  const double share = over > 0 ? shareOf(at, seen, to.sample, over, lobesOver(at, seen.view, to.sample)) : 1;
+  return lobe + arrives *
+                    shownOfSource(at, seen.view, to.sample.direction, to.sample.solidAngle, seen.shown) *
+                    (share / to.probability);
+}
+
+// The part of directOf() that a sample of the lobe estimates.
+Radiance VertexLight::ofLobe(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const {
+  const Interaction view = plainInteraction(seen.view, at.normal, at.flat, at.pattern);
+  const Scattering s = scatter(*at.material, view, 0);
+  const double u1 = random.uniform(), u2 = random.uniform();
+  SourceSample sample;
+  if (!(sampleReflection(s, view, 1, u1, u2, sample.direction) > 0)) return {};
+  const double density = reflectedDensity(s, view, sample.direction);
+  if (!(density > 0)) return {};
+  const Sight sight = surfaces_.look(at.point, sample.direction, kFarAway, at.surface);
+  if (sight.hit.surface == kNone || !(sight.hit.cosine > 0)) return {};
+  sample.source = prepared_.lights().of(sight.hit.surface);
+  if (sample.source == kNone || !surfaces_.knows(sample.source)) return {};
+  sample.distance = sight.distance;
+  sample.cosine = sight.hit.cosine;
+  const double lobes = lobesOver(at, seen.view, sample);
+  if (!(lobes > 0)) return {};
+  std::span<const uint32_t> sources;
+  const double sum = surfaces_.weigh(at.point, at.normal, sources, scratch.weights);
+  const auto own = std::lower_bound(sources.begin(), sources.end(), sample.source.index());
+  const double probability = sum > 0 && own != sources.end() && *own == sample.source.index()
+                                 ? scratch.weights[static_cast<size_t>(own - sources.begin())] / sum
+                                 : 0;
+  const double shadowRays = vertices_.emission().shadowRaysOver(sample, at.point, at.normal, probability);
+  const V3d point = at.point + sample.distance * sample.direction;
+  return surfaces_.radianceOf(sample.source, point, sight.hit.normal, sample.direction, scratch.functions) *
+         sight.passed * shownOfSource(at, seen.view, sample.direction, 1 / density, seen.shown) *
+         shareOf(at, seen, sample, lobes, shadowRays);
 }
 
 // The mean radiance that arrives over the hemisphere directly from sources (W/sr/m2).
@@ -225,7 +281,7 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   // The largest distance at which NearLight::share() is above u.
   const double u = random.uniform();
   const double farthest =
-      u > 0 ? std::min(vertices_.nearLight().width * std::sqrt((1 - u) / u), kFarAway) : kFarAway;
+      u > 0 ? std::min(vertices_.nearLight().width * std::sqrt(std::sqrt((1 - u) / u)), kFarAway) : kFarAway;
   if (!(farthest > kSamePlace)) return {};
   const Sight sight = surfaces_.look(at.point, direction, farthest, at.surface);
   if (sight.hit.surface == kNone) return {};

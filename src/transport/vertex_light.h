@@ -2,9 +2,9 @@
 // The light of plain surfaces by paths from both ends (bidirectional estimation): direct light by a shadow
 // ray to one source, indirect light by shadow rays to light vertices.
 //
-// The light of vertices is computed with the bounded kernel 1 / (d^2 + c^2) instead of 1 / d^2. One ray in a
-// random direction supplies the difference: the light of the place that it hits at a distance d is added with
-// the probability c^2 / (d^2 + c^2) (Kollig and Keller 2004, "Illumination in the presence of weak
+// The light of vertices is computed with the bounded kernel d^2 / (d^4 + c^4) instead of 1 / d^2. One ray in
+// a random direction supplies the difference: the light of the place that it hits at a distance d is added
+// with the probability c^4 / (d^4 + c^4) (Kollig and Keller 2004, "Illumination in the presence of weak
 // singularities"). These rays do not sample light that has reached a vertex by a highlight or a sharp
 // reflection, so that c is 0 for such vertices. If the place is joined to the eye, these rays also find
 // highlights of sources on near surfaces, which light paths hit too rarely in corners.
@@ -41,8 +41,12 @@ class VertexLight {
         0;  // probability that a light vertex there is joined to the eye, divided by joinedReflectance()
     Shown shown = Shown::all;
   };
-  // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2).
+  // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2): by a
+  // shadow ray and, if the highlight is strong, by a sample of its lobe.
   Radiance directOf(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
+  // The density of lobe samples from the place towards a source, divided by the density of light paths from
+  // there (m2); 0 if lobe samples do not estimate its light. view: of the ray from the eye (unit).
+  double lobesOver(const PlainPlace& at, const V3d& view, const SourceSample& sample) const;
 
   // Collects the contributions of light vertices.
   struct Record {
@@ -77,6 +81,10 @@ class VertexLight {
   Coefficient passing(const PlainPlace& at, const SourceSample& sample) const;
   Radiance arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                              FunctionScratch& scratch) const;
+  bool samplesLobe(const PlainPlace& at) const;
+  double shareOf(const PlainPlace& at, const Seen& seen, const SourceSample& sample, double shadowRays,
+                 double lobes) const;
+  Radiance ofLobe(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
   Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
   Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofVertex(const PlainPlace& at, size_t i) const;

@@ -70,7 +70,7 @@ double received(const std::vector<LightVertex>& vertices, const VertexClusters::
     const V3d way = v.point() - to.point;
     const double here = way.dot(to.normal), there = -way.dot(v.normal()), square = way.length2();
     if (here > 0 && there > 0 && v.bounces <= to.bounces)
-      sum += v.power * here * there / (square * (square + (v.isUnbounded() ? 0 : kWidth * kWidth)));
+      sum += v.power * here * there / (square * square + (v.isUnbounded() ? 0 : std::pow(kWidth, 4)));
   }
   return sum;
 }
