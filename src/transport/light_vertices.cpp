@@ -88,9 +88,9 @@ double joinedReflectance(const Opaque& m, const V3d& normal, const V3d& view, co
   if (!hasRoughHighlight(m)) return diffuse;
   // Ward's lobe around the halfway vector, without Fresnel's rise at grazing angles.
   const V3d half = toSource - view;
-  const double along = half.dot(normal), square = along * along, ratio = half.length2() / square;
+  const double along = half.dot(normal);
   if (!(along > 0)) return diffuse;
-  const double a2 = m.roughness * m.roughness;
+  const double a2 = m.roughness * m.roughness, square = along * along, ratio = half.length2() / square;
   return diffuse + m.specularity * (m.metal ? color : 1) * std::exp((1 - ratio) / a2) * ratio / (square * a2);
 }
 
@@ -355,19 +355,14 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
 double LightVertices::shadowRaysTo(const VisibleVertex& v) const {
   std::atomic<double>& known = visible_.shadowRaysTo(v);
   if (const double rays = known.load(std::memory_order_relaxed); rays > 0) return rays;
-  std::span<const uint32_t> sources;
   std::vector<double> weights;
-  const double sum = surfaces_.weigh(v.vertex.point(), v.normal, sources, weights);
-  if (!(sum > 0)) return 0;
-  const auto own = std::lower_bound(sources.begin(), sources.end(), v.source.index()) - sources.begin();
+  const double chance = chanceOf(v.source, surfaces_, v.vertex.point(), v.normal, weights);
   SourceSample same;
   same.direction = -v.direction;
   same.distance = v.length;
   same.cosine = v.cosineAtSource;
   same.source = v.source;
-  const double rays =
-      starts_.onSources.shadowRaysOver(same, v.vertex.point(), v.normal,
-                                       weights[static_cast<size_t>(own)] / sum);
+  const double rays = starts_.onSources.shadowRaysOver(same, v.vertex.point(), v.normal, chance);
   known.store(rays, std::memory_order_relaxed);
   return rays;
 }

@@ -11,6 +11,7 @@
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
 //   direct sunlight, it is light of other surfaces or of the sky, which sharp reflections transport, too.
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct NearLight {
     const double ratio = distance * distance / (width * width);
     return 1 / (1 + ratio * ratio);
   }
+  // The largest distance at which share() is at least this share, which is above 0.
+  double distanceOf(double share) const { return width * std::sqrt(std::sqrt((1 - share) / share)); }
   // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
   // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
   // eye. Joins are bounded by the same kernel as light between diffuse surfaces.

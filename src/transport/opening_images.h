@@ -14,8 +14,7 @@ namespace rsphere {
 // not the mean.
 class OpeningImages {
  public:
-  // Uses polygons of mirror, or of smooth metal or plastic, outside of instances. Keeps
-  // no references.
+  // Uses polygons of mirror, or of smooth metal or plastic, outside of instances. Keeps no references.
   OpeningImages(const PreparedScene& prepared, const Openings& openings);
 
   struct Image {

@@ -179,6 +179,15 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
                   patternFrom(scene_.modifiers[surface.material].next, here, scratch));
 }
 
+double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
+                std::vector<double>& weights) {
+  std::span<const uint32_t> sources;
+  const double sum = surfaces.weigh(point, normal, sources, weights);
+  const auto own = std::lower_bound(sources.begin(), sources.end(), source.index());
+  if (!(sum > 0) || own == sources.end() || *own != source.index()) return 0;
+  return weights[static_cast<size_t>(own - sources.begin())] / sum;
+}
+
 double PlainSurfaces::weigh(const V3d& point, const V3d& normal, std::span<const uint32_t>& sources,
                             std::vector<double>& weights) const {
   sources = prepared_.lights().hidden().notHiddenFrom(point, normal);

@@ -120,6 +120,11 @@ class PlainSurfaces {
   bool hasPanes_ = false;
 };
 
+// The probability of choosing this source by the weights of PlainSurfaces::weigh(); 0 if it is certainly
+// hidden. weights: room for these.
+double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
+                std::vector<double>& weights);
+
 // Whether paths from both ends estimate the light of a source that arrives at a point straight from a
 // direction (unit): that of distant sources only through portals.
 inline bool bringLightOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,

@@ -123,16 +123,19 @@ Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample
   }
 }
 
-// Whether a sample of the lobe estimates direct light too. Of weak highlights, shadow rays find enough.
+// Whether samples of the lobe estimate direct light, too. Shadow rays suffice for weak highlights.
 bool VertexLight::samplesLobe(const PlainPlace& at) const {
   return surfaces_.portals().empty() && hasRoughHighlight(*at.material) &&
          at.material->specularity >= tuning::VertexLight::kStrong;
 }
 
+// Whether samples of lobes that hit a source estimate its light.
+bool VertexLight::isFoundByLobes(LightId source) const {
+  return sharesHighlights(prepared_, source) && vertices_.emission().isAimedAt(source);
+}
+
 double VertexLight::lobesOver(const PlainPlace& at, const V3d& view, const SourceSample& sample) const {
-  if (!samplesLobe(at) || !sharesHighlights(prepared_, sample.source) ||
-      !vertices_.emission().isAimedAt(sample.source))
-    return 0;
+  if (!samplesLobe(at) || !isFoundByLobes(sample.source)) return 0;
   const Interaction seen = plainInteraction(view, at.normal, at.flat, at.pattern);
   const double density = reflectedDensity(scatter(*at.material, seen, 0), seen, sample.direction);
   return vertices_.emission().lobesOver(sample, at.normal, density);
@@ -181,18 +184,13 @@ Radiance VertexLight::ofLobe(const PlainPlace& at, const Seen& seen, Random& ran
   const Sight sight = surfaces_.look(at.point, sample.direction, kFarAway, at.surface);
   if (sight.hit.surface == kNone || !(sight.hit.cosine > 0)) return {};
   sample.source = prepared_.lights().of(sight.hit.surface);
-  if (sample.source == kNone || !surfaces_.knows(sample.source)) return {};
+  if (sample.source == kNone || !surfaces_.knows(sample.source) || !isFoundByLobes(sample.source)) return {};
   sample.distance = sight.distance;
   sample.cosine = sight.hit.cosine;
-  const double lobes = lobesOver(at, seen.view, sample);
+  const double lobes = vertices_.emission().lobesOver(sample, at.normal, density);
   if (!(lobes > 0)) return {};
-  std::span<const uint32_t> sources;
-  const double sum = surfaces_.weigh(at.point, at.normal, sources, scratch.weights);
-  const auto own = std::lower_bound(sources.begin(), sources.end(), sample.source.index());
-  const double probability = sum > 0 && own != sources.end() && *own == sample.source.index()
-                                 ? scratch.weights[static_cast<size_t>(own - sources.begin())] / sum
-                                 : 0;
-  const double shadowRays = vertices_.emission().shadowRaysOver(sample, at.point, at.normal, probability);
+  const double chance = chanceOf(sample.source, surfaces_, at.point, at.normal, scratch.weights);
+  const double shadowRays = vertices_.emission().shadowRaysOver(sample, at.point, at.normal, chance);
   const V3d point = at.point + sample.distance * sample.direction;
   return surfaces_.radianceOf(sample.source, point, sight.hit.normal, sample.direction, scratch.functions) *
          sight.passed * shownOfSource(at, seen.view, sample.direction, 1 / density, seen.shown) *
@@ -278,10 +276,8 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
     const double u1 = random.uniform(), u2 = random.uniform();
     return diffuseDirection(at.normal, u1, u2);
   }();
-  // The largest distance at which NearLight::share() is above u.
   const double u = random.uniform();
-  const double farthest =
-      u > 0 ? std::min(vertices_.nearLight().width * std::sqrt(std::sqrt((1 - u) / u)), kFarAway) : kFarAway;
+  const double farthest = u > 0 ? std::min(vertices_.nearLight().distanceOf(u), kFarAway) : kFarAway;
   if (!(farthest > kSamePlace)) return {};
   const Sight sight = surfaces_.look(at.point, direction, farthest, at.surface);
   if (sight.hit.surface == kNone) return {};

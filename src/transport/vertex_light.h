@@ -82,6 +82,7 @@ class VertexLight {
   Radiance arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                              FunctionScratch& scratch) const;
   bool samplesLobe(const PlainPlace& at) const;
+  bool isFoundByLobes(LightId source) const;
   double shareOf(const PlainPlace& at, const Seen& seen, const SourceSample& sample, double shadowRays,
                  double lobes) const;
   Radiance ofLobe(const PlainPlace& at, const Seen& seen, Random& random, Scratch& scratch) const;
