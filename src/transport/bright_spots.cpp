@@ -271,7 +271,9 @@ RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& fr
 }
 
 V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
-  const float due = static_cast<float>(u1) * aim.sum[aim.count - 1];
+  // Below 1 in single precision too: with 1, the last spot would be chosen even if it contributes nothing
+  // because it contains the point. There are no directions to such a spot.
+  const float due = std::min(static_cast<float>(u1), 1 - 0x1p-24f) * aim.sum[aim.count - 1];
   size_t i = 0;
   while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
   const V3d axis = V3d(aim.x[i], aim.y[i], aim.z[i]).normalized();

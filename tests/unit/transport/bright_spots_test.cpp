@@ -106,6 +106,27 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
   }
 }
 
+// A number just below 1 is 1 in single precision. Near some of these points, the last spot contributes
+// nothing because it contains the point.
+TEST(BrightSpots, TheLargestNumberChoosesASpotThatContributes) {
+  const Traced pot(kRoom + kPot);
+  const BrightSpots spots = spotsOf(pot);
+  const double largest = std::nextafter(1., 0.);
+  int inLast = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = .1 * i, radius = .3 * (i % 20) / 20;
+    const V3d point(1 + radius * std::cos(angle), 1 + radius * std::sin(angle), 2.4 + .3 * (i % 7) / 7);
+    BrightSpots::Aim aim;
+    spots.aim(point, V3d(0, 0, 1), aim);
+    if (!(aim.mean > 0)) continue;
+    inLast += aim.count > 1 && !(aim.sum[aim.count - 1] > aim.sum[aim.count - 2]);
+    const V3d direction = spots.sample(aim, largest, .5, .5);
+    EXPECT_NEAR(direction.length(), 1, 1e-12);
+    EXPECT_GT(spots.density(aim, direction), 0);
+  }
+  EXPECT_GT(inLast, 0);
+}
+
 // Aimed paths give the same mean with less noise. The reference is the mean of 20 million paths that are not
 // aimed, with a standard error of 1.9e-6 (mean() below with that count).
 TEST(BrightSpots, LeaveTheMeanAsItIs) {
