@@ -67,6 +67,17 @@ std::vector<std::vector<std::string>> readArgumentFile(const std::string& path, 
   return lines;
 }
 
+// The count after words[at], which is -a. As in xform, only the integer at the beginning of the word counts:
+// "3.0", as a division in a script writes it, is 3. Empty if it is missing or not positive.
+std::optional<int64_t> countAfter(std::span<const std::string> words, size_t at) {
+  if (at + 1 >= words.size()) return {};
+  std::string_view word = words[at + 1];
+  word.remove_prefix(std::min(word.find_first_not_of(" \t\n\v\f\r"), word.size()));
+  const auto count =
+      parseInteger(word.substr(0, word.find_first_not_of("0123456789", word.starts_with('+'))));
+  return count && *count > 0 ? count : std::nullopt;
+}
+
 class Passes {
  public:
   Passes(const std::string& directory, const FileAccess& access,
@@ -113,8 +124,8 @@ class Passes {
   }
 
   void array(const std::vector<std::string>& words, size_t at, int nested) {
-    const auto count = at + 1 < words.size() ? parseInteger(words[at + 1]) : std::nullopt;
-    if (!count || *count <= 0) throw fault("missing count for -a");
+    const auto count = countAfter(words, at);
+    if (!count) throw fault("missing count for -a");
     copiesOfArrays(words);
     // If a command has several names (-n), each is replaced by the last one with the element's number.
     std::optional<std::string> name;
@@ -216,8 +227,8 @@ XformFault tooMany() {
 int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside) {
   int64_t copies = 1;
   for (size_t i = 1; i + 1 < words.size(); ++i) {
-    const auto count = words[i] == "-a" ? parseInteger(words[i + 1]) : std::nullopt;
-    if (!count || *count <= 0) continue;
+    const auto count = words[i] == "-a" ? countAfter(words, i) : std::nullopt;
+    if (!count) continue;
     if (*count > kMostPasses / copies / outside) throw tooMany();
     copies *= *count;
   }

@@ -239,6 +239,16 @@ TEST(Xform, FilesAreFoundAlongThePathAndCommandsRunInTheirFolder) {
             fmt::format("{0}/./leg.txt:1 (from {0}/desk.rad:2, room.rad:1)", folder.path("lib/desk")));
 }
 
+TEST(Xform, ACountIsTheIntegerThatItsWordBeginsWith) {
+  const TestFolder folder;
+  folder.write("p.rad", kTriangle);
+  const auto copies = [&](const std::string& count) {
+    return readText(fmt::format("!xform -a {} -t 1 0 0 {}\n", count, folder.path("p.rad"))).primitives.size();
+  };
+  for (const char* count : {"3", "3.0", "3.7", "+3", "03", "3e1", "' 3'", "3x"})
+    EXPECT_EQ(copies(count), 3u) << count;
+}
+
 TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   const TestFolder folder;
   folder.write("p.rad", kTriangle);
@@ -253,6 +263,8 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   EXPECT_EQ(fault("-mx -n late {0}"), "room.rad:2: xform: bad option or argument at \"-n\"");
   EXPECT_EQ(fault("-a 0 -mx {0}"), "room.rad:2: xform: missing count for -a");
   EXPECT_EQ(fault("-a {0}"), "room.rad:2: xform: missing count for -a");
+  EXPECT_EQ(fault("-a .5 -mx {0}"), "room.rad:2: xform: missing count for -a");
+  EXPECT_EQ(fault("-a -2 -mx {0}"), "room.rad:2: xform: missing count for -a");
   const std::string tooMany =
       "room.rad:2: xform: more than 10000000 copies: make an octree (oconv -f) of a part, and copy instances "
       "of it";
