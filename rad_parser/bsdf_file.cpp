@@ -28,6 +28,22 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+// Text in UTF-16 that begins with a byte order mark, converted to UTF-8.
+std::string fromUtf16(std::string_view text) {
+  const size_t low = text[0] == '\xff' ? 0 : 1;
+  const auto isIn = [](wchar_t unit, wchar_t first) { return unit >= first && unit < first + 0x400; };
+  std::wstring wide;
+  for (size_t i = 2; i + 1 < text.size(); i += 2) {
+    const auto byte = [&](size_t at) { return static_cast<unsigned char>(text[i + at]); };
+    const auto unit = static_cast<wchar_t>(byte(1 - low) << 8 | byte(low));
+    if (isIn(unit, 0xdc00) && !wide.empty() && isIn(wide.back(), 0xd800))
+      wide.back() = 0x10000 + ((wide.back() - 0xd800) << 10) + (unit - 0xdc00);
+    else
+      wide += unit;
+  }
+  return pugi::as_utf8(wide);
+}
+
 AngleBasis klems(std::string_view name, std::vector<AngleBasis::Ring> rings) {
   AngleBasis basis{std::string(name), std::move(rings), 0};
   for (const auto& ring : basis.rings) basis.cells += ring.cells;
@@ -151,7 +167,10 @@ class TreeReader {
 class BsdfReader {
  public:
   BsdfReader(std::string_view text, std::string_view name, const Warn& warn)
-      : text_(text), name_(name), warn_(warn) {}
+      : converted_(isUtf16(text) ? fromUtf16(text) : std::string()),
+        text_(isUtf16(text) ? converted_ : text),
+        name_(name),
+        warn_(warn) {}
 
   BsdfFile read() {
     const pugi::xml_node layer = open();
@@ -361,7 +380,8 @@ class BsdfReader {
     }
   }
 
-  std::string_view text_, name_;
+  const std::string converted_;  // of a file in UTF-16
+  const std::string_view text_, name_;
   const Warn& warn_;
   std::vector<char> buffer_;
   pugi::xml_document document_;

@@ -90,4 +90,11 @@ class ModifierIndex {
 // The byte order mark that some editors write at the beginning of UTF-8 text.
 inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
+// Whether text begins with a byte order mark of UTF-16, which Windows PowerShell writes with `>`.
+inline bool isUtf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+inline constexpr std::string_view kUtf16 =
+    "the text is in UTF-16; convert it to UTF-8: iconv -f UTF-16 -t UTF-8";
+
 }  // namespace rad

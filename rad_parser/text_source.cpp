@@ -64,10 +64,11 @@ int TextSource::peek() {
 }
 
 void TextSource::skipByteOrderMark() {
-  if (peek() != static_cast<unsigned char>(kByteOrderMark[0])) return;
+  if (peek() < 0x80) return;
   while (end_ - next_ < static_cast<ptrdiff_t>(kByteOrderMark.size()))
-    if (const char* keep = next_; !refill(keep)) return;
-  if (std::string_view(next_, kByteOrderMark.size()) == kByteOrderMark) next_ += kByteOrderMark.size();
+    if (const char* keep = next_; !refill(keep)) break;
+  if (isUtf16({next_, end_})) throw builder_.error({file_, line_}, kUtf16);
+  if (std::string_view(next_, end_).starts_with(kByteOrderMark)) next_ += kByteOrderMark.size();
 }
 
 void TextSource::skipLine() {

@@ -25,6 +25,7 @@ class TextSource {
   int peek();
 
   // Skips white space and a byte order mark; some editors write this mark at the beginning of UTF-8 text.
+  // Throws Error if the mark is that of UTF-16.
   void skipByteOrderMark();
 
   // Skips to the end of the line.

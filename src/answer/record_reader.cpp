@@ -130,6 +130,7 @@ void RecordReader::newLine() {
 }
 
 void RecordReader::malformed(std::string_view word) const {
+  if (records_ == 0 && rad::isUtf16(word)) throw rad::Error(fmt::format("{}: {}", name_, rad::kUtf16));
   throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"", name_, line_, perRecord_,
                                counted(perRecord_), rad::printable(word, kShownWord)));
 }

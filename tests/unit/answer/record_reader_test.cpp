@@ -46,6 +46,22 @@ TEST(RecordReader, LineEndsAreNoDifferentFromBlanks) {
   EXPECT_EQ(all.fault, "");
 }
 
+TEST(RecordReader, Utf16IsNamed) {
+  using namespace std::string_literals;
+  const std::string message = "stdin: the text is in UTF-16; convert it to UTF-8: iconv -f UTF-16 -t UTF-8";
+  for (const std::string& text : {"\xff\xfe"
+                                  "1\0 \0"
+                                  "2\0 \0"
+                                  "3\0\n\0"s,
+                                  "\xfe\xff\0"
+                                  "1\0 \0"
+                                  "2\0 \0"
+                                  "3\0\n"s}) {
+    EXPECT_EQ(readText(text).fault, message);
+    EXPECT_EQ(readLines(text).fault, message);
+  }
+}
+
 TEST(RecordReader, NothingIsNoFault) {
   EXPECT_EQ(readText("").records, 0u);
   EXPECT_EQ(readText(" \n\n\t").fault, "");

@@ -88,6 +88,39 @@ TEST(BsdfFile, KlemsBases) {
   EXPECT_EQ(klemsBasis("LBNL/Klems"), nullptr);
 }
 
+// As Windows PowerShell writes them.
+TEST(BsdfFile, Utf16WithAByteOrderMark) {
+  std::string text = oneMatrix("1 2 3 4 5 6 7 8 9");
+  text.replace(text.find("<Name>a"), 7, "<Name>\xe2\x82\xac \xf0\x9f\x98\x80");
+  std::string little = "\xff\xfe", big = "\xfe\xff";
+  for (size_t i = 0; i < text.size();) {
+    const auto byte = [&](size_t k) { return static_cast<unsigned char>(text[i + k]); };
+    const auto put = [&](unsigned unit) {
+      little += {static_cast<char>(unit & 0xff), static_cast<char>(unit >> 8)};
+      big += {static_cast<char>(unit >> 8), static_cast<char>(unit & 0xff)};
+    };
+    if (byte(0) == 0xe2) {
+      put(0x20ac), i += 3;
+    } else if (byte(0) == 0xf0) {
+      put(0xd83d), put(0xde00), i += 4;
+    } else {
+      put(byte(0)), ++i;
+    }
+  }
+  const BsdfFile expected = BsdfFile::parse(text, "a");
+  for (const std::string& other : {little, big}) {
+    const BsdfFile file = BsdfFile::parse(other, "a");
+    const auto& m = file.matrices[BsdfFile::kTransmissionBack];
+    ASSERT_TRUE(m);
+    EXPECT_EQ(m->y, expected.matrices[BsdfFile::kTransmissionBack]->y);
+  }
+  const size_t wrong = little.find(std::string("5\0 \0", 4));
+  ASSERT_NE(wrong, little.npos);
+  little[wrong] = 'x';
+  EXPECT_EQ(errorOf(little), errorOf(std::string(text).replace(text.find("5 "), 1, "x"))) << "the same line";
+  EXPECT_EQ(errorOf("\xff\xfe<").substr(0, 17), "a.xml:1: not XML:");
+}
+
 // The side that WINDOW calls the back is the inside of a window, which is the front of its surface.
 TEST(BsdfFile, EachDirectionIsAComponent) {
   std::string bands;

@@ -208,6 +208,15 @@ TEST(SceneFile, HostileCounts) {
       "room.rad:1: polygon \"p\": expected the number of real arguments, got \"99999999999999999999999\"");
 }
 
+TEST(SceneFile, Utf16IsNamed) {
+  using namespace std::string_view_literals;
+  const std::string message =
+      "room.rad:1: the text is in UTF-16; convert it to UTF-8: iconv -f UTF-16 -t UTF-8";
+  EXPECT_EQ(errorOfText("\xff\xfev\0o\0i\0d\0 \0"sv), message);
+  EXPECT_EQ(errorOfText("\xfe\xff\0v\0o\0i\0d\0 "sv), message);
+  EXPECT_EQ(errorOfText("\xff\xfe"sv), message);
+}
+
 TEST(SceneFile, HostileBytes) {
   using namespace std::string_view_literals;
   EXPECT_EQ(errorOfText("void sphere\n s\0 0 0 0"sv), "room.rad:2: NUL byte: this is not scene text");
@@ -236,18 +245,10 @@ TEST(SceneFile, SpoiledTextsAreReadOrRefused) {
     for (int k = static_cast<int>(random() % 3) + 1; k > 0 && !text.empty(); --k) {
       const size_t at = random() % text.size();
       switch (random() % 4) {
-        case 0:
-          text[at] = static_cast<char>(random());
-          break;
-        case 1:
-          text.erase(at, random() % 5);
-          break;
-        case 2:
-          text.insert(at, text.substr(random() % text.size(), random() % 12));
-          break;
-        case 3:
-          text.resize(at + 1);
-          break;
+        case 0: text[at] = static_cast<char>(random()); break;
+        case 1: text.erase(at, random() % 5); break;
+        case 2: text.insert(at, text.substr(random() % text.size(), random() % 12)); break;
+        case 3: text.resize(at + 1); break;
       }
     }
     std::replace(text.begin(), text.end(), '!', '?');
