@@ -25,7 +25,8 @@ void LightSources::findSources() {
     const Material* material = scene_.materialOf(surface);
     if (!material || !isSampled(*material)) continue;
     const double reach = reachOf(*material);
-    if (reach != 0 && surface.shape.as<Distant>()) continue;
+    const bool distant = surface.shape.as<Distant>();
+    if (distant ? reach != 0 : !isPlain(surface.shape)) continue;
     LightSource& source = sources_.emplace_back(lightSourceOf(scene_, i));
     source.reach = reach;
     if (const auto* spot = std::get_if<Spotlight>(material)) source.spot = *spot;

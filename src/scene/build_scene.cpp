@@ -178,7 +178,8 @@ class Builder {
     return at->second;
   }
 
-  // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre.
+  // Rejects shapes that cannot be sampled as light sources, because rays cannot be aimed at their centre. As
+  // in rtrace, meshes and instances are accepted without being sampled.
   void checkLight(const Primitive& p, const Shape& shape, ModifierId materialId) const {
     const Material* material = scene_.materialAt(materialId);
     if (!material || !isSampled(*material)) return;
@@ -202,7 +203,9 @@ class Builder {
           if (cone.radius0 > .2 * cone.length) own.warn(warn_, "source aspect too small");
         },
         [](const Distant&) {},
-        [&](const NestedShape auto&) { own.fail("a surface of this type cannot be a light source"); });
+        [&](const NestedShape auto&) {
+          own.warn(warn_, "a surface of this type is no light source: it is seen, but lights nothing");
+        });
   }
 
   std::optional<Shape> makeShape(PrimitiveId i, const Primitive& p) {

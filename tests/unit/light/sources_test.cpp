@@ -260,7 +260,8 @@ TEST(Source, OnlyWhatShinesIsASource) {
       "void light dark\n0\n0\n3 0 0 0\nvoid light lamp\n0\n0\n3 1 1 1\nvoid plastic gray\n0\n0\n5 1 1 1 0 0\n"
       "void glow sky\n0\n0\n4 1 1 1 0\nvoid illum window\n0\n0\n3 1 1 1\n"
       "dark sphere a\n0\n0\n4 0 0 0 1\ngray sphere b\n0\n0\n4 5 0 0 1\nsky source c\n0\n0\n4 0 0 1 180\n"
-      "lamp sphere d\n0\n0\n4 9 0 0 1\nwindow sphere e\n0\n0\n4 13 0 0 1\n");
+      "lamp sphere d\n0\n0\n4 9 0 0 1\nwindow sphere e\n0\n0\n4 13 0 0 1\n"
+      "lamp mesh f 1 " RSPHERE_TESTS "/scenes/octree/box.rtm 0 0\n");
   const LightSources sources(scene);
   ASSERT_EQ(sources.all().size(), 2u);
   EXPECT_EQ(scene.surfaceName(scene.surfaces[sources.all().at(0).surface]), "d");

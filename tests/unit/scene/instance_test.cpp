@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/unit/support/files_of.h"
 #include "tests/unit/support/scene_of.h"
 
@@ -121,9 +124,13 @@ TEST(Instances, WhatIsWrongWithThem) {
   EXPECT_EQ(fault(instance("none.rtm", "0", "void", "mesh"), rad::Status::system),
             "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm") +
                 " (from room.rad:1: mesh \"placed\")");
-  const std::string light = "void light lamp\n0\n0\n3 1 1 1\n";
-  EXPECT_EQ(fault(light + instance(oct, "0", "lamp")),
-            "room.rad:5: instance \"placed\": a surface of this type cannot be a light source");
+  for (const char* light : {"void light lamp\n0\n0\n3 1 1 1\n", "void glow lamp\n0\n0\n4 1 1 1 5\n"}) {
+    std::vector<std::string> warnings;
+    sceneOf(light + instance(oct, "0", "lamp"), &warnings);
+    EXPECT_EQ(warnings,
+              std::vector<std::string>{"room.rad:5: instance \"placed\": a surface of this type is no "
+                                       "light source: it is seen, but lights nothing"});
+  }
 }
 
 TEST(Meshes, TrianglesOfEachMaterialAreASurface) {
