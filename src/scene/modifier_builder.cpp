@@ -175,8 +175,13 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
 
 Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& arguments) {
   if (!arguments.alternate) return {};
-  if (*arguments.alternate == "void") return {Alternate::Kind::pass, kNone};
-  return {Alternate::Kind::modifier, named(i, *arguments.alternate)};
+  const std::string_view name = *arguments.alternate;
+  if (name != "void" && definedBefore(i, name) != rad::kVoid)
+    return {Alternate::Kind::modifier, named(i, name)};
+  if (name != "void")  // as in rtrace
+    warnOnce(i, fmt::format("undefined modifier \"{}\" is treated as void{}", printable(name),
+                            index_->nearest(name, i)));
+  return {Alternate::Kind::pass, kNone};
 }
 
 // The modifier that WGMDfunc names for a component. None is needed if the component reflects or transmits

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "scene/material_questions.h"
 #include "tests/unit/support/scene_of.h"
 
 namespace rsphere {
@@ -56,10 +57,10 @@ TEST(Scene, WarnsOfSurfacesWithoutAreaAndLeavesThemOut) {
 // Rays are traced in single precision. A cone with a radius of 1e308 made answers that are not a number.
 TEST(Scene, CoordinatesBeyondSinglePrecisionAreErrors) {
   const std::pair<const char*, const char*> shapes[] = {
-      {"polygon", "9 -1e39 0 0 1 0 0 1 1 0"},   {"sphere", "4 0 0 0 1e308"},
-      {"cylinder", "7 0 0 -1e300 0 0 4 1"},     {"cone", "8 0 0 0 0 0 1 1 1e308"},
-      {"ring", "8 0 0 0 0 0 1 0 3.5e38"},       {"bubble", "4 1e40 0 0 1"},
-      {"tube", "7 0 0 0 0 0 1e39 1"},           {"cup", "8 0 0 0 0 0 1 1e39 1"},
+      {"polygon", "9 -1e39 0 0 1 0 0 1 1 0"}, {"sphere", "4 0 0 0 1e308"},
+      {"cylinder", "7 0 0 -1e300 0 0 4 1"},   {"cone", "8 0 0 0 0 0 1 1 1e308"},
+      {"ring", "8 0 0 0 0 0 1 0 3.5e38"},     {"bubble", "4 1e40 0 0 1"},
+      {"tube", "7 0 0 0 0 0 1e39 1"},         {"cup", "8 0 0 0 0 0 1 1e39 1"},
   };
   for (const auto& [type, numbers] : shapes) {
     const std::string text = std::string(kGray) + "gray " + type + " s\n0\n0\n" + numbers + "\n";
@@ -76,9 +77,10 @@ TEST(Scene, CoordinatesBeyondSinglePrecisionAreErrors) {
 }
 
 TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
-  const std::pair<const char*, const char*> sources[] = {
-      {"light", "3 -1 -1 -1"}, {"illum", "3 0 -1 0"}, {"glow", "4 -1 -2 -3 5"},
-      {"spotlight", "7 -1 -1 -1 90 0 0 -1"}};
+  const std::pair<const char*, const char*> sources[] = {{"light", "3 -1 -1 -1"},
+                                                         {"illum", "3 0 -1 0"},
+                                                         {"glow", "4 -1 -2 -3 5"},
+                                                         {"spotlight", "7 -1 -1 -1 90 0 0 -1"}};
   for (const auto& [type, numbers] : sources) {
     std::vector<std::string> warnings;
     sceneOf(std::string("void ") + type + " l\n0\n0\n" + numbers + "\nl sphere s\n0\n0\n4 0 0 0 1\n" +
@@ -165,9 +167,9 @@ TEST(Scene, RefusesWhatItCannotAnswerRightly) {
        "room.rad:5: spotlight \"bad\": zero angle"},
       {"void spotlight bad\n0\n0\n7 1 1 1 9 0 0 0\nbad sphere s\n0\n0\n4 0 0 0 1\n",
        "room.rad:5: spotlight \"bad\": zero focus vector"},
-      {"void mirror bad\n1 later\n0\n3 1 1 1\nvoid plastic later\n0\n0\n5 0 0 0 0 0\nbad sphere s\n0\n0\n4 0 "
-       "0 0 1\n",
-       "room.rad:5: mirror \"bad\": undefined modifier \"later\""},
+      {"void mixfunc bad\n4 later void .5 .\n0\n0\nvoid plastic later\n0\n0\n5 0 0 0 0 0\n"
+       "bad sphere s\n0\n0\n4 0 0 0 1\n",
+       "room.rad:5: mixfunc \"bad\": undefined modifier \"later\""},
       {"void light l\n0\n0\n3 1 1 1\nl ring s\n0\n0\n8 0 0 0 0 0 1 .5 1\n",
        "room.rad:9: ring \"s\": cannot hit source center"},
       {"void light l\n0\n0\n3 1 1 1\nl bubble s\n0\n0\n4 0 0 0 1\n",
@@ -216,10 +218,37 @@ TEST(Scene, WarnsOfMaterialsThatSendOnMoreLightThanArrives) {
 }
 
 TEST(Scene, NamesTheNearestModifier) {
-  EXPECT_EQ(
-      errorOf(
-          "void plastic paint 0 0 5 0 0 0 0 0\nvoid mirror m 1 paimt 0 3 1 1 1\nm sphere s 0 0 4 0 0 0 1\n"),
-      "room.rad:2: mirror \"m\": undefined modifier \"paimt\"; the nearest is \"paint\"");
+  EXPECT_EQ(errorOf("void plastic paint 0 0 5 0 0 0 0 0\nvoid mixfunc m 4 paimt void .5 . 0 0\n"
+                    "m sphere s 0 0 4 0 0 0 1\n"),
+            "room.rad:2: mixfunc \"m\": undefined modifier \"paimt\"; the nearest is \"paint\"");
+}
+
+// As in rtrace, where the manual does not say so.
+TEST(Scene, AnAlternateThatIsNotDefinedBeforeIsVoid) {
+  const auto alternates = [](const std::string& name, std::vector<std::string>* warnings) {
+    const Scene scene =
+        sceneOf("void plastic paint 0 0 5 0 0 0 0 0\nvoid mirror m 1 " + name +
+                    " 0 3 1 1 1\nm sphere s 0 0 4 0 0 0 1\nvoid illum i 1 " + name +
+                    " 0 3 1 1 1\ni sphere t 0 0 4 3 0 0 1\nvoid plastic later 0 0 5 0 0 0 0 0\n",
+                warnings);
+    std::vector<Alternate::Kind> kinds;
+    for (const SurfaceId i : scene.surfaces.ids())
+      kinds.push_back(alternateOf(*scene.materialOf(scene.surfaces[i]))->kind);
+    return kinds;
+  };
+  using enum Alternate::Kind;
+  for (const char* name : {"void", "later", "paimt"}) {
+    std::vector<std::string> warnings;
+    EXPECT_EQ(alternates(name, &warnings), (std::vector{pass, pass})) << name;
+    const std::string hint = name == std::string("paimt") ? "; the nearest is \"paint\"" : "";
+    std::vector<std::string> expected;
+    if (name != std::string("void"))
+      expected = {
+          fmt::format("room.rad:2: mirror \"m\": undefined modifier \"{}\" is treated as void{}", name, hint),
+          fmt::format("room.rad:4: illum \"i\": undefined modifier \"{}\" is treated as void{}", name, hint)};
+    EXPECT_EQ(warnings, expected);
+  }
+  EXPECT_EQ(alternates("paint", nullptr), (std::vector{modifier, modifier}));
 }
 
 TEST(Scene, LooksAtUsedModifiersOnly) {
