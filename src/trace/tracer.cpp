@@ -64,7 +64,7 @@ bool wins(const Owner& ownerA, double cosineA, const Owner& ownerB, double cosin
   if (a.transparent != b.transparent) return b.transparent;
   if ((cosineA > 0) != (cosineB > 0)) return cosineA > 0;
   if (a.modifier != b.modifier) return a.modifier > b.modifier;
-  return ownerA.surface < ownerB.surface;
+  return ownerA.surface > ownerB.surface;
 }
 
 // Increases a length by more than the rounding errors of single precision (2^-24) and of its computation.

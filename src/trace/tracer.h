@@ -55,7 +55,7 @@ class Tracer {
   // The nearest hit beyond kSamePlace and up to `farthest` (world units) along the unit vector direction; a
   // Hit with surface kNone if there is none. Among surfaces within kSamePlace of one another, RADIANCE's
   // rules decide. In this order, the following take precedence: surfaces with a material, opaque surfaces,
-  // surfaces hit from the front, and surfaces whose modifier is defined later. If an instance or a mesh has a
+  // surfaces hit from the front, surfaces whose modifier is defined later, and later ones. If an instance or a mesh has a
   // modifier, hits on its contents are reported as hits on the instance or mesh. from: the surface on which
   // the ray starts. If it is plane, the ray cannot hit it again, which changes the result only by rounding.
   Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway,

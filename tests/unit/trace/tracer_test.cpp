@@ -194,6 +194,8 @@ TEST(Tracer, ChoosesBetweenCoincidentSurfacesAsRadianceDoes) {
     EXPECT_EQ(seenFromAbove(tie.winner + tie.loser), "winner") << tie.why;
     EXPECT_EQ(seenFromAbove(tie.loser + tie.winner), "winner") << tie.why << ", other order";
   }
+  EXPECT_EQ(seenFromAbove(square("gray", "first") + square("gray", "second")), "second")
+      << "of one modifier, the later surface";
   EXPECT_EQ(seenFromAbove(square("gray", "low", true, -2e-6) + square("void", "high")), "high")
       << "beyond the tolerance the nearer one counts";
 }
