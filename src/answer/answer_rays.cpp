@@ -27,7 +27,8 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
   if (value && lacksSources(transport.prepared())) warn("no light sources found");
   return [&, tracers, trees, value, valueAlone, shadows](const Record& record, unsigned worker,
                                                          std::string& bytes) {
-    const InputRay in = inputRay(record.numbers.data(), options.irradiance);
+    const InputRay in =
+        inputRay(record.numbers.data(), options.irradiance, transport.prepared().scene().samePlace);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
     PathTracer& tracer = (*tracers)[worker];
     const auto writeBranch = [&](const RayEnd& end, const RayResult& result) {

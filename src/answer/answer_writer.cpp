@@ -236,14 +236,14 @@ double makeUnit(const V3d& vector, V3d& unit) {
 
 }  // namespace
 
-InputRay inputRay(const double* numbers, IrradianceAt irradiance) {
+InputRay inputRay(const double* numbers, IrradianceAt irradiance, double samePlace) {
   InputRay ray;
   ray.origin = V3d(numbers[0], numbers[1], numbers[2]);
   const V3d given(numbers[3], numbers[4], numbers[5]);
   ray.length = makeUnit(given, ray.direction);
   if (ray.length == 0) return ray;
   if (irradiance == IrradianceAt::point) {
-    ray.origin += kSensorHeight * ray.direction;
+    ray.origin += kSensorHeight * (samePlace / kSamePlace) * ray.direction;
     ray.direction = -ray.direction;
   }
   return ray;

@@ -57,14 +57,14 @@ class AnswerWriter {
 };
 
 // The ray that rtrace traces for the six numbers of an input record, with a normalized direction. With -I,
-// the origin is moved along the direction by 1.1e-4 scene units, and the direction is then reversed; -oo and
-// -od print the result. `length`: of the given direction, which is the ray's limit with -ld; 0 for a bogus
-// record.
+// the origin is moved along the direction by 1.1e-4 scene units, or less in small scenes, and the direction
+// is then reversed; -oo and -od print the result. `length`: of the given direction, which is the ray's limit
+// with -ld; 0 for a bogus record. samePlace: Scene::samePlace.
 struct InputRay {
   V3d origin{0, 0, 0}, direction{0, 0, 0};
   double length = 0;
 };
-InputRay inputRay(const double* numbers, IrradianceAt irradiance);
+InputRay inputRay(const double* numbers, IrradianceAt irradiance, double samePlace = kSamePlace);
 
 // Whether a record of ray mode (six numbers) has no direction: as in rtrace, if its squared length is zero in
 // floating point.

@@ -58,6 +58,7 @@ RayContributions::RayContributions(const Transport& transport, const AnswerOptio
                                    std::vector<TrackedModifier> modifiers, Contributed what, int samples,
                                    rad::Warn warn)
     : options_(options),
+      samePlace_(transport.prepared().scene().samePlace),
       tracked_(transport.prepared(), std::move(modifiers), what, std::move(warn)),
       components_(static_cast<size_t>(tracked_.components())),
       samples_(samples) {
@@ -69,7 +70,7 @@ void RayContributions::answer(const Record& record, unsigned worker, std::string
   std::vector<double> sums(numbers()), squares(samples_ > 1 ? numbers() : 0);
   const double n = samples_;
   if (!record.bogus) {
-    const InputRay in = inputRay(record.numbers.data(), options_.irradiance);
+    const InputRay in = inputRay(record.numbers.data(), options_.irradiance, samePlace_);
     const double farthest = options_.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options_);
     for (int sample = 0; sample < samples_; ++sample) {

@@ -28,6 +28,7 @@ class RayContributions {
 
  private:
   const AnswerOptions& options_;
+  double samePlace_;  // Scene::samePlace
   const Tracked tracked_;
   const size_t components_;
   const int samples_;

@@ -47,7 +47,7 @@ Answers answerRays(const Transport& transport, const CompareOptions& options, st
   std::vector<PathTracer> tracers = rayTracers(transport, options);
   forEachIndex(answers.records, options.threads, nullptr, [&](size_t i, unsigned worker) {
     const std::span<const double> numbers = rays.subspan(6 * i, 6);
-    const InputRay in = inputRay(numbers.data(), options.irradiance);
+    const InputRay in = inputRay(numbers.data(), options.irradiance, transport.prepared().scene().samePlace);
     const double farthest = options.limitDistance ? in.length : 0;
     for (size_t r = 0; r < answers.repeats; ++r)
       answers.values[r * answers.records + i] =
@@ -165,7 +165,8 @@ std::string worstText(const CompareOptions& options, const Comparison& compariso
                         100 * comparison.records[i].difference, 100 * comparison.records[i].error);
     for (size_t c = 0; c < per; ++c) text += fmt::format(" {:g}", rays[per * k + c]);
     if (hits) {
-      const InputRay in = inputRay(&rays[per * k], options.irradiance);
+      const InputRay in =
+          inputRay(&rays[per * k], options.irradiance, transport.prepared().scene().samePlace);
       const TracedRay hit = tracer.cast(in.origin, in.direction, options.limitDistance ? in.length : 0);
       const std::string name = answerOf(transport.prepared().scene(), hit).surface.text();
       text += name == names[k] ? fmt::format("  hits {}", names[k])

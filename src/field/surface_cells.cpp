@@ -50,7 +50,7 @@ CellGrid::CellGrid(const Box3d& bounds) {
   }
   if (!(size > 0)) size = 1;
   for (int level = 0; level <= kLevels; ++level) sides[static_cast<size_t>(level)] = std::ldexp(size, -level);
-  lift = std::max({1e-9 * size, 1e-12 * magnitude, 2 * kSamePlace});
+  lift = std::max({1e-9 * size, 1e-12 * magnitude, 2 * samePlaceIn(bounds)});
 }
 
 int CellGrid::levelOf(double side) const {

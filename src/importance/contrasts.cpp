@@ -28,6 +28,10 @@ class Values {
   int count_ = 0;
 };
 
+double clearanceAt(const SurfacePoint& at, const Scene& scene) {
+  return std::max(at.clearance, 4 * scene.samePlace);
+}
+
 // The radiance seen from random points on the scene's surfaces; every surface is equally probable.
 struct TypicalView {
   double mean = 0;       // of the photopic radiance, W/sr/m2
@@ -46,7 +50,7 @@ TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
     const SurfacePoint at = samplePoint(scene, scene.surfaces[i], random);
     if (!(at.clearance > 0)) continue;
     const V3d away = diffuseDirection(at.normal, random.uniform(), random.uniform());
-    const TracedRay ray = tracer.trace(at.point + at.clearance * away, away, 0, random.bits());
+    const TracedRay ray = tracer.trace(at.point + clearanceAt(at, scene) * away, away, 0, random.bits());
     if (sources.isApart(ray.shown)) continue;
     photopic.add(photopicOf(ray.value.color, sampling));
     values.add(brightness(ray.value));
@@ -69,7 +73,8 @@ double measureDeviation(const Scene& scene, std::span<const SpecialObject> objec
     // Objects that are not closed are seen from both sides.
     const bool behind = !isClosed(shapeOf(scene, object)) && k % 2;
     const V3d away = diffuseDirection(behind ? -at.normal : at.normal, random.uniform(), random.uniform());
-    const TracedRay ray = tracer.trace(at.point + at.clearance * away, -away, 0, random.bits(), request);
+    const TracedRay ray =
+        tracer.trace(at.point + clearanceAt(at, scene) * away, -away, 0, random.bits(), request);
     if (shows(scene, object, ray.surface) && !sources.isApart(ray.shown)) values.add(brightness(ray.value));
   }
   return values.deviation();

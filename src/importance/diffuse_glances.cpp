@@ -162,7 +162,8 @@ std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing) {
   const PreparedScene& prepared = tracing.prepared;
   if (!tracing.aims.openings || prepared.options().ambientAccuracy > 0) return {};
   const V3d size = prepared.tracer().bounds().size();
-  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}));
+  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}),
+                  tracing.prepared.scene().samePlace);
   if (portals.empty()) return {};
   PlainSurfaces surfaces(prepared, std::move(portals));
   if (surfaces.obstacle()) return {};
@@ -240,7 +241,7 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
   std::vector<Joined> all;
   Random random = randomOf(set, GlanceStream::joins);
   joins.draw(random, [&](const VisibleVertex& v, double share, const V3d& direction, double distance) {
-    const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kNone);
+    const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kInSpace);
     const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
     const SpectralSampling* const sampling = prepared_.options().sampling;
     found.moments.add(direction, part, sampling);
@@ -283,7 +284,7 @@ SharedError DiffuseGlances::evened(const Joins& joins, std::span<const Joined> a
 }
 
 Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing& by) const {
-  const Sight sight = surfaces_.look(point, direction, kFarAway, kNone);
+  const Sight sight = surfaces_.look(point, direction, kFarAway, kInSpace);
   const PlainPlace at = surfaces_.placeOf(point, direction, sight, by.scratch.functions);
   if (!at.material) return {};
   const Coefficient color(sight.passed.color * at.color() *

@@ -41,7 +41,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
     return {{source.center, std::vector<V3d>(first, first + polygon->vertices)}};
   }
   const V3d away = source.isDistant() ? source.center : source.center - ball.center;
-  const double distance = std::max(away.length() - ball.radius, kSamePlace);
+  const double distance = std::max(away.length() - ball.radius, scene.samePlace);
   V3d u(0, 0, 0), v(0, 0, 0);
   const auto setRound = [&](const V3d& axis, double radius) {
     frame(axis, u, v);
@@ -176,7 +176,7 @@ void Glints::addOf(const Ball& mirror, const Light& light, const V3d& point, dou
   std::vector<V3d> around;
   for (const Part& part : partsOf(prepared_.scene(), source, ball)) {
     const V3d normal = mirroringNormal(ball, point, part.middle, source.isDistant());
-    const V3d at = ball.center + (ball.radius + 2 * kSamePlace) * normal, in = point - at;
+    const V3d at = ball.center + (ball.radius + 2 * prepared_.tracer().samePlace()) * normal, in = point - at;
     const V3d out = source.isDistant() ? source.center : (part.middle - at).normalized();
     if (!(normal.dot(in) > 0) || (plane && plane->normal.dot(out) >= 0)) continue;
     if (source.spot && outsideSpot(*source.spot, out)) continue;

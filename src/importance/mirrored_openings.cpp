@@ -26,9 +26,10 @@ bool isVisible(const PreparedScene& prepared, const Image& image, const Silhouet
     tested = true;
     const V3d at = image.crossing(point, place);
     const V3d back = place - 2 * image.above(place) * normal - at;
-    if (tracer.shadow(point, direction, (at - point).length() * (1 - kEnd), kNone) != Shadow::blocked &&
-        tracer.shadow(at + kSamePlace * normal, back.normalized(), back.length() * (1 - kEnd), kNone) !=
-            Shadow::blocked)
+    if (tracer.shadow(point, direction, (at - point).length() * (1 - kEnd), kNone, nullptr, kInSpace) !=
+            Shadow::blocked &&
+        tracer.shadow(at + tracer.samePlace() * normal, back.normalized(), back.length() * (1 - kEnd),
+                      kNone) != Shadow::blocked)
       return true;
   }
   return !tested;

@@ -26,8 +26,7 @@ SurfacePoint pointOnTriangle(const rad::Mesh& mesh, Random& random) {
   const V3d normal = ab.cross(ac);
   const double area = normal.length() / 2;
   if (!(area > 0)) return {};
-  return {a + root * (1 - t) * ab + root * t * ac, normal / (2 * area),
-          std::max(std::sqrt(area) * 1e-3, 4 * kSamePlace)};
+  return {a + root * (1 - t) * ab + root * t * ac, normal / (2 * area), std::sqrt(area) * 1e-3};
 }
 
 SurfacePoint placed(const SurfacePoint& inner, const Placement& placement) {

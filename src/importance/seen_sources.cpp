@@ -52,7 +52,7 @@ bool fills(ShapeRef shape, const Silhouette& s) {
 }
 
 bool hits(const Scene& scene, ShapeRef shape, const V3d& point, const V3d& direction, ShapeHit& hit) {
-  if (isPlain(shape)) return intersect(shape, scene.vertices, point, direction, kFarAway, hit);
+  if (isPlain(shape)) return intersect(shape, scene.vertices, point, direction, kFarAway, hit, 0);
   // A distant source: all tested directions are within its cone.
   hit = {kFarAway, -direction, 1};
   return true;
@@ -355,7 +355,8 @@ std::optional<SeenSources::Sample> SeenSources::sampleStraight(const PathsFrom& 
       const double lot = cell.random.uniform();
       if (!hits(prepared_.scene(), shape, point, direction, on) || !(on.cosine > 0)) continue;
       ++s.aimed;
-      const bool clear = prepared_.tracer().shadow(point, direction, on.distance, source) != Shadow::blocked;
+      const bool clear = prepared_.tracer().shadow(point, direction, on.distance, source, nullptr,
+                                                   kInSpace) != Shadow::blocked;
       s.clear += clear;
       // Reservoir sampling: the nth ray replaces the current choice with probability 1/n, so that all n are
       // equally probable.

@@ -23,9 +23,10 @@ constexpr double kRounding = 1e-15;
 constexpr double kTiny = 1e-13;
 
 // Whether a point is so close to a plane that no ray from there hits it: the distance to the hit or the
-// cosine would be below kSamePlace.
+// cosine would be below kSamePlace, the distance relative to coordinates below 1.
 bool liesInPlane(double height, double coordinates) {
-  return std::abs(height) <= std::max(kSamePlace * kSamePlace, 4 * kRounding * coordinates);
+  return std::abs(height) <=
+         std::max(kSamePlace * kSamePlace * std::min(1., coordinates), 4 * kRounding * coordinates);
 }
 
 double largestCoordinate(const V3d& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
@@ -258,7 +259,7 @@ Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d
   };
   const auto ofPolygon = [&](const Polygon& polygon) {
     const auto around = vertices.subspan(polygon.firstVertex, polygon.vertices);
-    if (thicknessOf(polygon, vertices) <= kSamePlace) {
+    if (thicknessOf(polygon, vertices) <= kSamePlace * std::min<double>(1, polygon.extent)) {
       s.setPolygon(polygon, around, point);
     } else {
       // Rays hit the polygon in its mean plane. The vertices are moved into that plane, along the polygon's

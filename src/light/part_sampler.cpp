@@ -187,7 +187,8 @@ bool PartSampler::hit(const V3d& direction, double length, SourceSample& sample)
   ShapeHit hit;
   // The ray hits the relay of a virtual source, which lies in front of the image.
   const double farthest = source_.isVirtual() && !source_.isDistant() ? length + source_.radius : 1e10;
-  if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit))
+  if (!intersect(scene_.surfaces[source_.surface].shape, scene_.vertices, point_, direction, farthest, hit,
+                 scene_.samePlace))
     return false;
   sample.distance = hit.distance;
   sample.cosine = hit.cosine;
@@ -358,7 +359,7 @@ void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
   // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
   // would then fill half the sky.
-  if (height <= kSamePlace) return;
+  if (height <= scene_.samePlace) return;
   std::array<V3d, 4> aims = cornersOf(source_.center, plane, part);
   const auto [below, above] = halvesOf(aims, point_);
   const double omega = std::abs(below + above);
@@ -430,7 +431,7 @@ double LightSources::nearSolidAngle(LightId index, const V3d& point) const {
   const auto* plane = source.as<PlaneLight>();
   if (!plane || !std::holds_alternative<PlaneLight::Parallelogram>(plane->map) ||
       !isNear(*plane, {}, source.center - point) ||
-      plane->normal.dot(point - source.center) <= kSamePlace)
+      plane->normal.dot(point - source.center) <= scene_.samePlace)
     return 0;
   const auto [below, above] = halvesOf(cornersOf(source.center, *plane, {}), point);
   return std::abs(below + above);

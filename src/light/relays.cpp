@@ -16,7 +16,7 @@
 namespace rsphere {
 namespace {
 
-constexpr double kTiny = 1e-6;  // world units, cosines: RADIANCE's own figure for "in the plane"
+constexpr double kTiny = 1e-6;  // of cosines and shares: RADIANCE's own figure; Scene::samePlace for lengths
 // Bounds of relays are enlarged by this fraction of their distance so that rounding cannot exclude a relay.
 constexpr double kRelayRounding = 1e-9;
 // For light that has passed more relays than this, only its source and this number of the last relays bound
@@ -298,10 +298,10 @@ class Images {
     if (isPrism(relay)) return projectByPrism(source, relay, image);
     const double before = source.center.dot(relay.normal) - (source.isDistant() ? 0 : relay.offset) +
                           extent(source, relay.normal);
-    if (before <= kTiny) return std::nullopt;  // behind the mirror
+    if (before <= scene_.samePlace) return std::nullopt;  // behind the mirror
     // If the mirror's plane cuts the source, an earlier relay may hide the part in front of it.
     const auto reachesFront = [&](const Passage& passage) {
-      return passage.ball.center.dot(relay.normal) - relay.offset + passage.ball.radius > kTiny;
+      return passage.ball.center.dot(relay.normal) - relay.offset + passage.ball.radius > scene_.samePlace;
     };
     if (!std::ranges::all_of(way.passages, reachesFront)) return std::nullopt;
     return Projection{relay.normal, relay.offset, -2. * relay.normal, true};
@@ -353,7 +353,7 @@ class Images {
     if (source.isVirtual()) {
       const auto [away, offset] = sideLit(index);
       const auto beyond = [away = away, offset = offset](const V3d& p) { return p.dot(away) - offset; };
-      if (mostOver(relay, beyond) <= kTiny) return false;
+      if (mostOver(relay, beyond) <= scene_.samePlace) return false;
       if (!meetsBeams(source, way, relay.ball)) return false;
     }
     if (source.isDistant()) return true;
@@ -367,8 +367,8 @@ class Images {
       if (cone.cosine > 0 && !cone.meets(source.center, enlarged)) return false;
     }
     const auto* plane = source.as<PlaneLight>();
-    return !plane ||
-           mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(plane->normal); }) > kTiny;
+    return !plane || mostOver(relay, [&](const V3d& p) { return (p - source.center).dot(plane->normal); }) >
+                         scene_.samePlace;
   }
 
   // A conservative test: false only if lights() is false for every relay within the bounds.
@@ -381,7 +381,7 @@ class Images {
     const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
     const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
     const double rounding = kRelayRounding * (middle.length() + half.length() + std::abs(offset));
-    if (middle.dot(away) + half.dot(span) - offset + rounding <= kTiny) return false;
+    if (middle.dot(away) + half.dot(span) - offset + rounding <= scene_.samePlace) return false;
     Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
     double sizes = ball.center.length() + ball.radius;
     for (const Passage& passage : way.passages) sizes += passage.ball.center.length();

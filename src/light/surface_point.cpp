@@ -20,9 +20,8 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// A thousandth of the shape's size, but large enough that the tracer does not treat the shape as the surface
-// on which the ray starts.
-double clearanceOf(double size) { return std::max(size * 1e-3, 4 * kSamePlace); }
+// A thousandth of the shape's size.
+double clearanceOf(double size) { return size * 1e-3; }
 
 template <class Numbers>
 SurfacePoint pointOn(const Polygon& polygon, std::span<const V3d> all, Numbers& random) {

@@ -8,7 +8,8 @@
 namespace rsphere {
 
 // A point on a shape and its unit normal on the front side. A ray that is aimed at the point from the
-// distance `clearance` (world units) hits nothing before it.
+// distance `clearance` (world units) hits nothing before it. If it is below a few times Scene::samePlace, the
+// tracer treats the shape as the surface on which such a ray starts.
 struct SurfacePoint {
   V3d point{0, 0, 0};
   V3d normal{0, 0, 1};

@@ -33,11 +33,11 @@ AnswerOptions pacedByRays(const ContributionOptions& options) {
 
 // traced: index of the first ray to be traced; the rays before it were answered by an earlier run.
 AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers, const ContributionOptions& options,
-                                 uint64_t traced) {
-  return [&tracers, &options, traced](const Record& record, unsigned worker, std::string& bytes) {
+                                 double samePlace, uint64_t traced) {
+  return [&tracers, &options, samePlace, traced](const Record& record, unsigned worker, std::string& bytes) {
     if (record.bogus || record.index < traced)
       return appendContributions(bytes, ContributionList(tracers[worker].components()));
-    const InputRay in = inputRay(record.numbers.data(), options.irradiance);
+    const InputRay in = inputRay(record.numbers.data(), options.irradiance, samePlace);
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
     appendContributions(bytes, tracers[worker].trace(in.origin, in.direction, farthest, seed));
@@ -70,7 +70,7 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   bool shortInput = false;
   end.shortInput = [&shortInput] { shortInput = true; };
   runRecords(reader, sums, paced, messages, &signals,
-             answerContributions(tracers, options, outputs.recovered() * rays), end);
+             answerContributions(tracers, options, scene.samePlace, outputs.recovered() * rays), end);
   if (sums.end() > 0)
     warn("partial record: the last one is the mean over the rays that are left, fewer than -c");
   outputs.close();

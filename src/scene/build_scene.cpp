@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <unordered_map>
 
@@ -17,6 +19,45 @@ namespace {
 using rad::Place;
 using rad::Primitive;
 using rad::Type;
+
+// The bounds of the surfaces of a scene's groups, without distant ones.
+class BoundsOf {
+ public:
+  explicit BoundsOf(const Scene& scene)
+      : scene_(scene), groups_(scene.groups.size()), meshes_(scene.meshes.size()) {}
+
+  const Box3d& group(uint32_t index) {
+    std::optional<Box3d>& box = groups_[index];
+    if (box) return *box;
+    box.emplace();
+    for (const SurfaceId s : scene_.groups[index].surfaces)
+      match(
+          scene_.surfaces.shapeOf(scene_.surfaces.face(s)),
+          [&](const Polygon& p) {
+            for (const V3d& v : std::span(scene_.vertices).subspan(p.firstVertex, p.vertices))
+              box->extendBy(v);
+          },
+          [&](const Instance& i) { box->extendBy(placed(scene_.placements[i.placement], group(i.group))); },
+          [&](const MeshInstance& m) { box->extendBy(placed(scene_.placements[m.placement], mesh(m.mesh))); },
+          [&](const OneOf<Sphere, Cone, Ring> auto& form) { box->extendBy(bounds(form)); },
+          [](const OneOf<Distant, MeshFaces> auto&) {});
+    return *box;
+  }
+
+ private:
+  const Box3d& mesh(uint32_t index) {
+    std::optional<Box3d>& box = meshes_[index];
+    if (box) return *box;
+    box.emplace();
+    const rad::Mesh& data = scene_.meshes[index].data;
+    for (const rad::Mesh::Triangle& t : data.triangles)
+      for (const uint32_t vertex : t.vertices) box->extendBy(data.position(vertex));
+    return *box;
+  }
+
+  const Scene& scene_;
+  std::vector<std::optional<Box3d>> groups_, meshes_;  // those that are known
+};
 
 // Reads the files that a scene names, and converts their surfaces and its own.
 class Builder {
@@ -39,6 +80,7 @@ class Builder {
     for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
     for (Finish& finish : scene_.surfaces.finishes()) finish.clip = modifiers_.clipOf(finish.described);
     scene_.vertices = std::move(scene_.description.vertices);
+    scene_.samePlace = samePlaceIn(BoundsOf(scene_).group(0));
     scene_.description.primitives.shrink();
     if (scene_.surfaces.size() > Scene::kFewSurfaces) scene_.names = {};
     return std::move(scene_);

@@ -77,6 +77,8 @@ struct Scene {
   IdRange<SurfaceId> outermostIds() const {
     return groups.empty() ? IdRange<SurfaceId>() : groups[0].surfaces;
   }
+  // samePlaceIn() of the scene itself: kSamePlace unless the scene is small.
+  double samePlace = kSamePlace;
   // The total area of these surfaces, counting one side of each (square world units), without instances and
   // meshes.
   double area() const;

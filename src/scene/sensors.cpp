@@ -11,33 +11,33 @@ namespace rsphere {
 namespace {
 
 // Moves sensors at the same place apart, so that a ray aimed at one does not hit another.
-std::vector<Sensor> movedApart(std::span<const Sensor> sensors) {
-  constexpr double kApart = 2 * kSensorSide;
+std::vector<Sensor> movedApart(std::span<const Sensor> sensors, double side) {
+  const double gap = 2 * side;
   std::vector<Sensor> apart;
   for (Sensor sensor : sensors) {
     const V3d wanted = sensor.point;
     const auto collides = [&] {
       for (const Sensor& other : apart)
-        if ((other.point - sensor.point).length2() < .99 * kApart * kApart) return true;
+        if ((other.point - sensor.point).length2() < .99 * gap * gap) return true;
       return false;
     };
     // Tries the places of a cubic lattice, shell by shell outwards.
     for (int shell = 1; collides(); ++shell)
       for (int i = 0; i < (2 * shell + 1) * (2 * shell + 1) * (2 * shell + 1) && collides(); ++i) {
-        const int side = 2 * shell + 1;
+        const int places = 2 * shell + 1;
         sensor.point =
-            wanted + kApart * V3d(i % side - shell, i / side % side - shell, i / side / side - shell);
+            wanted + gap * V3d(i % places - shell, i / places % places - shell, i / places / places - shell);
       }
     apart.push_back(sensor);
   }
   return apart;
 }
 
-Polygon squareOf(const Sensor& sensor, std::vector<V3d>& vertices) {
+Polygon squareOf(const Sensor& sensor, double side, std::vector<V3d>& vertices) {
   V3d u, v;
   frame(sensor.normal, u, v);
-  u *= kSensorSide / 2;
-  v *= kSensorSide / 2;
+  u *= side / 2;
+  v *= side / 2;
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const V3d& corner : {-u - v, u - v, u + v, v - u}) vertices.push_back(sensor.point + corner);
   Polygon square = makePolygon(vertices, first, 4);
@@ -100,14 +100,16 @@ void addSensors(Scene& scene, std::span<const Sensor> sensors) {
   scene.description.files.push_back({.name = "sensors", .numbered = false});
   const std::vector<std::string> names = namesOfSensors(more);
   uint32_t number = 0;
-  for (const Sensor& sensor : movedApart(sensors)) {
+  // In a small scene the side is less than kSensorSide.
+  const double side = kSensorSide * (scene.samePlace / kSamePlace);
+  for (const Sensor& sensor : movedApart(sensors, side)) {
     const std::string& name = names[number++];
     Finish finish;
     finish.goal = finish.sensor = true;
-    finish.importance = Radiance(1 / (kSensorSide * kSensorSide));
+    finish.importance = Radiance(1 / (side * side));
     finish.name = name;
     all.finishes().push_back(std::move(finish));
-    all.push_back(squareOf(sensor, scene.vertices), static_cast<uint32_t>(all.finishes().size()) - 1,
+    all.push_back(squareOf(sensor, side, scene.vertices), static_cast<uint32_t>(all.finishes().size()) - 1,
                   describe(scene, name, file, number));
   }
   for (size_t i = outermost; i < before.size(); ++i) keep(i);

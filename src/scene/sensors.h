@@ -30,7 +30,8 @@ std::vector<std::string> namesOfSensors(size_t count);
 void addSensors(Scene& scene, std::span<const Sensor> sensors);
 
 // The side of a sensor's square (world units): in metres, a hundredth of a millimetre. Small compared with
-// usual distances, large compared with rounding and kSamePlace.
+// usual distances, large compared with rounding and kSamePlace. In a small scene it is less, by the factor by
+// which Scene::samePlace is less than kSamePlace.
 inline constexpr double kSensorSide = 1e-5;
 
 }  // namespace rsphere

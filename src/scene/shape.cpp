@@ -12,9 +12,6 @@ namespace {
 // The rounding error of a coordinate difference, relative to the coordinates: two ulp.
 constexpr double kRounding = 4.5e-16;
 
-// Whether a root lies on the ray. Callers test roots in ascending order.
-bool within(double t, double farthest) { return t > kSamePlace && t <= farthest; }
-
 // The normal, scaled by twice the area. It is computed relative to the first vertex, so that it is accurate
 // far from the origin.
 V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
@@ -35,7 +32,28 @@ std::span<const V3d> verticesOf(const Polygon& polygon, std::span<const V3d> all
   return all.subspan(polygon.firstVertex, polygon.vertices);
 }
 
+double largestCoordinate(const Box3d& box) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min[i]), std::abs(box.max[i])});
+  return largest;
+}
+
 }  // namespace
+
+double samePlaceIn(const Box3d& box) {
+  if (box.isEmpty()) return kSamePlace;
+  // Scenes whose largest side is above kSmall (world units) have RADIANCE's value. In metres these include
+  // lamps without a room, whose light is measured from afar.
+  constexpr double kSmall = .01, kShare = 1e-5;
+  const V3d size = box.size();
+  const double largest = std::max({size.x, size.y, size.z});
+  return std::max(largest < kSmall ? kShare * largest : kSamePlace, 4 * kRounding * largestCoordinate(box));
+}
+
+double roundingIn(const Box3d& box) {
+  // At an angle of 1e-3 to a plane, an error of its distance is a thousand times as large along the ray.
+  return box.isEmpty() ? 0 : std::min(samePlaceIn(box), 1e3 * kRounding * largestCoordinate(box));
+}
 
 Polygon makePolygon(std::span<const V3d> all, uint32_t first, uint32_t count) {
   Polygon polygon;
@@ -140,8 +158,8 @@ bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3
   return inside(polygon, vertices, origin + distance * direction, tolerance);
 }
 
-bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest,
-               ShapeHit& hit) {
+bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest) {
   const V3d m = origin - sphere.center;
   const double b = m.dot(direction);
   // Computed from the distance between line and centre, because b^2 - c loses all accuracy for a small sphere
@@ -151,8 +169,8 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
   if (!(discriminant >= 0)) return false;
   const double half = std::sqrt(discriminant);
   double t = -b - half;
-  if (t <= kSamePlace) t = -b + half;
-  if (!within(t, farthest)) return false;
+  if (t <= nearest) t = -b + half;
+  if (!(t > nearest && t <= farthest)) return false;
   const V3d outward = (m + t * direction).normalized();
   hit.distance = t;
   hit.normal = sphere.inward ? -outward : outward;
@@ -160,7 +178,8 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
   return true;
 }
 
-bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
+bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest) {
   const V3d m = origin - cone.base;
   // Early exit for most rays: their line passes the axis at a greater distance than the larger radius.
   const V3d across = direction.cross(cone.axis);
@@ -200,7 +219,7 @@ bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double
   }
   for (int i = 0; i < count; ++i) {
     const double t = roots[i];
-    if (!within(t, farthest)) continue;
+    if (!(t > nearest && t <= farthest)) continue;
     const double along = mAxis + t * dAxis;
     if (along < 0 || along > cone.length) continue;
     const V3d radial = mAcross + t * dAcross;
@@ -216,12 +235,13 @@ bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double
   return false;
 }
 
-bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit) {
+bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest) {
   const double cosine = -ring.normal.dot(direction);
   if (std::abs(cosine) <= kSamePlace) return false;
   const V3d m = origin - ring.center;
   const double t = ring.normal.dot(m) / cosine;
-  if (!within(t, farthest)) return false;
+  if (!(t > nearest && t <= farthest)) return false;
   const double r2 = (m + t * direction).length2();
   if (r2 > ring.outer * ring.outer || r2 < ring.inner * ring.inner) return false;
   hit = {t, ring.normal, cosine};
@@ -270,12 +290,14 @@ Box3d bounds(const Ring& ring) {
 }
 
 bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit) {
+               double farthest, ShapeHit& hit, double nearest) {
   return match(
       shape,
-      [&](const Polygon& polygon) { return intersect(polygon, vertices, origin, direction, farthest, hit); },
+      [&](const Polygon& polygon) {
+        return intersect(polygon, vertices, origin, direction, farthest, hit, nearest);
+      },
       [&](const OneOf<Sphere, Cone, Ring> auto& form) {
-        return intersect(form, origin, direction, farthest, hit);
+        return intersect(form, origin, direction, farthest, hit, nearest);
       },
       [](const Distant&) { return false; }, [](const NestedShape auto&) { return false; });
 }

@@ -20,6 +20,13 @@ using Imath::V3d;
 // are ignored (world units). The value is RADIANCE's, on which scenes with coincident surfaces rely.
 inline constexpr double kSamePlace = 1e-6;
 
+// The same for the surfaces of a scene, octree or mesh with these bounds. It is smaller if the surfaces are
+// so small that kSamePlace would be visible, and never below the rounding errors of hits.
+double samePlaceIn(const Box3d& bounds);
+
+// The rounding errors of hits on surfaces with these bounds, with a margin for rays at small angles to them.
+double roundingIn(const Box3d& bounds);
+
 // The length of a ray that hits nothing (world units): RADIANCE's infinity.
 inline constexpr double kFarAway = 1e10;
 
@@ -179,14 +186,17 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> vertices);
 // The mean of the vertices.
 V3d centerOf(const Polygon& polygon, std::span<const V3d> vertices);
 
-// Whether the ray hits the shape at a distance above kSamePlace and up to `farthest`. hit: the nearest such
+// Whether the ray hits the shape at a distance above `nearest` and up to `farthest`. hit: the nearest such
 // point; unchanged if there is none. Distances are accurate to a few ulp of the largest coordinate involved.
 // As in RADIANCE, a ray misses a plane if its cosine to the normal is at most kSamePlace.
 inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
-                      const V3d& direction, double farthest, ShapeHit& hit);
-bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
-bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
-bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit);
+                      const V3d& direction, double farthest, ShapeHit& hit, double nearest = kSamePlace);
+bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest = kSamePlace);
+bool intersect(const Cone& cone, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest = kSamePlace);
+bool intersect(const Ring& ring, const V3d& origin, const V3d& direction, double farthest, ShapeHit& hit,
+               double nearest = kSamePlace);
 
 // The smallest box around the shape, up to rounding. Not for Distant.
 Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices);
@@ -196,7 +206,7 @@ Box3d bounds(const Ring& ring);
 
 // intersect() and bounds() for any shape: no hit and an empty box if the shape is not plain.
 bool intersect(ShapeRef shape, std::span<const V3d> vertices, const V3d& origin, const V3d& direction,
-               double farthest, ShapeHit& hit);
+               double farthest, ShapeHit& hit, double nearest = kSamePlace);
 Box3d bounds(ShapeRef shape, std::span<const V3d> vertices);
 
 // Computes the polygon's plane and axis from its vertices (at least 3). It has no area if they are collinear.
@@ -212,11 +222,11 @@ bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3
 
 // The plane test is inline, because most tested polygons already fail it.
 inline bool intersect(const Polygon& polygon, std::span<const V3d> vertices, const V3d& origin,
-                      const V3d& direction, double farthest, ShapeHit& hit) {
+                      const V3d& direction, double farthest, ShapeHit& hit, double nearest) {
   const double cosine = -polygon.normal.dot(direction);
   if (std::abs(cosine) <= kSamePlace) return false;
   const double t = (polygon.normal.dot(origin) - polygon.offset) / cosine;
-  if (!(t > kSamePlace && t <= farthest)) return false;
+  if (!(t > nearest && t <= farthest)) return false;
   if (!meetsInside(polygon, vertices, origin, direction, t, cosine)) return false;
   hit = {t, polygon.normal, cosine};
   return true;

@@ -49,7 +49,10 @@ std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn
   if (reals < 9 || reals % 3) a.fail(fmt::format("expected at least 9 coordinates in threes, got {}", reals));
   needTraceable(a);
   size_t count = reals / 3;
-  if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= kSamePlace) --count;
+  // The last vertex may repeat the first.
+  Box3d box;
+  for (size_t i = 0; i < reals; i += 3) box.extendBy(a.vector(i));
+  if (count > 3 && (a.vector(0) - a.vector(reals - 3)).length() <= samePlaceIn(box)) --count;
   if (vertices.size() > std::numeric_limits<uint32_t>::max() || count >= Polygon::kMostVertices)
     a.fail("more vertices than can be numbered");
   const Polygon polygon = makePolygon(vertices, a.firstVertex(), static_cast<uint32_t>(count));

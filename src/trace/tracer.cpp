@@ -89,11 +89,14 @@ struct Found {
 struct Query {
   embree::QueryContext context;  // must be first: callbacks cast its address to that of the Query
   V3d origin, direction;
-  double start = 0;               // distance along the true ray at which Embree's ray starts
-  double farthest = 0;            // limit of the query
-  double samePlace = kSamePlace;  // kSamePlace of the world, in units of this tree
-  uint8_t depth = 0;              // of the tree: the number of placements that lead to it
-  Found best;                     // shadow(): the source itself, if it is a surface
+  double start = 0;     // distance along the true ray at which Embree's ray starts
+  double farthest = 0;  // limit of the query
+  double samePlace;     // Scene::samePlace, in units of this tree
+  // Hits closer to the origin are ignored: Scene::samePlace, or that of the contents of an instance or mesh.
+  // Less if the ray starts in space.
+  double nearest;
+  uint8_t depth = 0;  // of the tree: the number of placements that lead to it
+  Found best;         // shadow(): the source itself, if it is a surface
   SurfaceId source;
   Owner standIn;          // the instance or mesh to which hits on the tree's contents may be attributed
   bool passable = false;  // shadow(): whether something was hit that may transmit light
@@ -285,6 +288,7 @@ class Tracer::Tree {
     if (bounds_.isEmpty()) return;
     center_ = bounds_.center();
     radius_ = bounds_.size().length() / 2;
+    samePlace_ = samePlaceIn(bounds_);
     // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding of its origin
     // moves it by at most 2^-23 radius per coordinate, and rounding of its direction by 2^-22 radius over
     // that length.
@@ -373,7 +377,8 @@ class Tracer::Tree {
   }
 
   bool meets(const Query& query, const auto& shape, ShapeHit& hit) const {
-    return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit);
+    return intersect(shape, scene_.vertices, query.origin, query.direction, query.reach(), hit,
+                     query.nearest);
   }
 
   // Most scenes consist of polygons, so they are tested on a short path.
@@ -404,7 +409,8 @@ class Tracer::Tree {
 
   bool meetTriangle(Query& query, uint32_t primitive) const {
     TriangleHit hit;
-    if (!intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit)) return false;
+    if (!intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit, query.nearest))
+      return false;
     const Owner owner = triangleOwner(primitive, query.standIn);
     if (query.loses(owner, hit.hit)) return false;
     query.best.owner = owner;
@@ -433,6 +439,8 @@ class Tracer::Tree {
     in.direction = placement.directionToInner(query.direction);
     in.farthest = query.reach() * placement.toInner.scale;
     in.samePlace = query.samePlace * placement.toInner.scale;
+    in.nearest =
+        query.nearest < query.samePlace ? query.nearest * placement.toInner.scale : contents.tree->samePlace_;
     in.depth = query.depth + 1;
     in.standIn = owner;
     return in;
@@ -488,7 +496,8 @@ class Tracer::Tree {
 
   bool crossTriangle(Query& query, uint32_t primitive) const {
     TriangleHit hit;
-    return intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit) &&
+    return intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit,
+                     query.nearest) &&
            crosses(query, triangleOwner(primitive, query.standIn), hit.hit);
   }
 
@@ -522,6 +531,7 @@ class Tracer::Tree {
   V3d center_{0, 0, 0};
   double radius_ = 0;   // of a sphere around all primitives
   double padding_ = 0;  // see build()
+  double samePlace_ = kSamePlace;
   RTCScene tree_ = nullptr;
 };
 
@@ -532,19 +542,34 @@ struct Tracer::Embree {
   // By group: the tree of its refracting surfaces; null if there are none.
   std::vector<std::unique_ptr<Tree>> refracting;
 
+  double samePlace = kSamePlace, rounding = 0;  // in the world
+
+  Query query(const V3d& origin, const V3d& direction, double farthest, SurfaceId from) const {
+    Query query;
+    query.origin = origin;
+    query.direction = direction;
+    query.farthest = farthest;
+    query.samePlace = samePlace;
+    query.nearest = from == kInSpace ? rounding : samePlace;
+    query.from = groups[0]->beginOf(from);
+    return query;
+  }
+
   // Whether a stopped shadow ray hits a surface that may refract it before it is stopped.
   bool refractsBefore(Query& query) const {
     Query bent;
     bent.origin = query.origin;
     bent.direction = query.direction;
     bent.farthest = query.stop;
+    bent.samePlace = query.samePlace;
+    bent.nearest = query.nearest;
     refracting[0]->nearest(bent);
     const Found& found = bent.best;
     // The tree contains all triangles of a mesh, including those that do not refract.
     if (!found.owner || found.owner.occluder->stops(found.hit.cosine)) return false;
     query.best.owner = found.owner;
     query.best.hit = found.hit;
-    query.farthest = found.hit.distance + kSamePlace;
+    query.farthest = found.hit.distance + query.samePlace;
     return !groups[0]->blocks(query);
   }
 
@@ -605,6 +630,8 @@ Tracer::Tracer(const Scene& scene, bool backFacesVisible)
   if (!scene.groups.empty()) {
     build(build, 0);
     bounds_ = e.groups[0]->bounds();
+    e.samePlace = scene.samePlace;
+    e.rounding = roundingIn(bounds_);
     for (const SurfaceId s : scene.outermostIds())
       if (refracts[s]) refracting_.push_back(e.groups[0]->boundsOf(scene.surfaces[s]));
   }
@@ -624,11 +651,7 @@ size_t Tracer::primitives() const {
 Hit Tracer::nearest(const V3d& origin, const V3d& direction, double farthest, SurfaceId from) const {
   Hit result;
   if (embree_->groups.empty()) return result;
-  Query query;
-  query.origin = origin;
-  query.direction = direction;
-  query.farthest = farthest;
-  query.from = embree_->groups[0]->beginOf(from);
+  Query query = embree_->query(origin, direction, farthest, from);
   embree_->groups[0]->nearest(query);
   const Found& found = query.best;
   if (!found.owner) return result;
@@ -656,12 +679,9 @@ bool Tracer::stopsShadows(SurfaceId surface, bool front) const {
   return front ? o.opaqueFront : o.opaqueBack;
 }
 
-bool Tracer::isClear(const V3d& origin, const V3d& direction, double distance) const {
+bool Tracer::isClear(const V3d& origin, const V3d& direction, double distance, SurfaceId from) const {
   if (embree_->groups.empty()) return true;
-  Query query;
-  query.origin = origin;
-  query.direction = direction;
-  query.farthest = distance;
+  Query query = embree_->query(origin, direction, distance, from == kInSpace ? from : kNone);
   return !embree_->groups[0]->blocks(query) && !query.passable;
 }
 
@@ -673,18 +693,14 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
                       uint32_t* blocker, SurfaceId from) const {
   if (embree_->groups.empty()) return Shadow::clear;
   const Tree& tree = *embree_->groups[0];
-  Query query;
-  query.origin = origin;
-  query.direction = direction;
-  query.farthest = distance;
+  Query query = embree_->query(origin, direction, distance, from);
   query.source = source;
-  query.from = tree.beginOf(from);
   if (source != kNone) {
     query.target = Tree::primitiveOf(source);
     // The source emits from its front, so ties with surfaces on it are resolved for that side.
     query.best.owner = tree.ownerOf(source);
     query.best.hit = {distance, V3d(0, 0, 0), 1};
-    query.farthest += kSamePlace;
+    query.farthest += query.samePlace;
   }
   bool blocked = true;
   if (blocker && tree.isBlocker(query, *blocker))

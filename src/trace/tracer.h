@@ -13,7 +13,7 @@
 // callback queries that tree with the ray transformed in double precision; instances may be nested. Embree's
 // instances were rejected, because they transform in single precision and would be a second type of tree. As
 // in RADIANCE, a ray ignores hits closer to its origin than kSamePlace in units of the octree or mesh, while
-// ties between coincident hits are resolved in world units.
+// ties between coincident hits are resolved in world units. Both are less in small scenes (samePlaceIn()).
 //
 // Threads: queries do not change a Tracer, so any number of threads may query it at the same time.
 #include <cstdint>
@@ -23,6 +23,10 @@
 #include "scene/scene.h"
 
 namespace rsphere {
+
+// In place of the surface on which a ray starts: it starts at a point of sphere mode, which lies on no
+// surface. Such a ray ignores only hits within rounding errors of its origin.
+inline constexpr SurfaceId kInSpace{-2};
 
 struct Hit {
   SurfaceId surface;
@@ -52,12 +56,13 @@ class Tracer {
   ~Tracer();
   Tracer(Tracer&&) noexcept;
 
-  // The nearest hit beyond kSamePlace and up to `farthest` (world units) along the unit vector direction; a
-  // Hit with surface kNone if there is none. Among surfaces within kSamePlace of one another, RADIANCE's
-  // rules decide. In this order, the following take precedence: surfaces with a material, opaque surfaces,
-  // surfaces hit from the front, surfaces whose modifier is defined later, and later ones. If an instance or a mesh has a
-  // modifier, hits on its contents are reported as hits on the instance or mesh. from: the surface on which
-  // the ray starts. If it is plane, the ray cannot hit it again, which changes the result only by rounding.
+  // The nearest hit beyond Scene::samePlace and up to `farthest` (world units) along the unit vector
+  // direction; a Hit with surface kNone if there is none. Among surfaces within Scene::samePlace of one
+  // another, RADIANCE's rules decide. In this order, the following take precedence: surfaces with a material,
+  // opaque surfaces, surfaces hit from the front, surfaces whose modifier is defined later, and later
+  // surfaces. If an instance or a mesh has a modifier, hits on its contents are reported as hits on the
+  // instance or mesh. from: the surface on which the ray starts, or kInSpace. If it is plane, the ray cannot
+  // hit it again, which changes the result only by rounding.
   Hit nearest(const V3d& origin, const V3d& direction, double farthest = kFarAway,
               SurfaceId from = kNone) const;
 
@@ -75,11 +80,13 @@ class Tracer {
   bool stopsShadows(SurfaceId surface, bool front) const;
 
   // Whether the segment from origin in the unit direction, of this length (world units), is free of anything
-  // that could block, refract or transmit a shadow ray.
-  bool isClear(const V3d& origin, const V3d& direction, double distance) const;
+  // that could block, refract or transmit a shadow ray. from: kInSpace, or a surface, which does not matter.
+  bool isClear(const V3d& origin, const V3d& direction, double distance, SurfaceId from = kNone) const;
 
   // The number of primitives, counting each octree and each mesh once.
   size_t primitives() const;
+
+  double samePlace() const { return scene_.samePlace; }
 
   // The bounds of all surfaces except distant ones; empty if there are none.
   const Box3d& bounds() const { return bounds_; }

@@ -28,7 +28,7 @@ std::optional<Value> interpolated(const std::optional<Value>& a, const std::opti
 
 // The ray hits if it passes all three edges on the same side (Segura and Feito, WSCG 2001).
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
-               double farthest, TriangleHit& out) {
+               double farthest, TriangleHit& out, double nearest) {
   const auto& corners = mesh.triangles[triangle].vertices;
   const V3d a = mesh.position(corners[0]) - origin, b = mesh.position(corners[1]) - origin,
             c = mesh.position(corners[2]) - origin;
@@ -39,7 +39,7 @@ bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, cons
   const double slope = direction.dot(normal);
   if (slope == 0) return false;
   const double t = a.dot(normal) / slope;
-  if (!(t > kSamePlace && t <= farthest)) return false;
+  if (!(t > nearest && t <= farthest)) return false;
   const double length = normal.length(), sum = atA + atB + atC;
   if (!(length > 0)) return false;
   out.hit = {t, normal / length, -slope / length};

@@ -15,7 +15,7 @@ struct TriangleHit {
 // Like intersect() in shape.h. A ray within rounding of an edge (1e-15 of the distance) hits the triangle, so
 // that no light leaks between adjacent triangles.
 bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, const V3d& direction,
-               double farthest, TriangleHit& hit);
+               double farthest, TriangleHit& hit, double nearest = kSamePlace);
 
 Box3d bounds(const rad::Mesh& mesh, uint32_t triangle);
 

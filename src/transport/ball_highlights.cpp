@@ -54,7 +54,7 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   keepLargest(candidates, tuning::Caps::kAimed, [](const Candidate& c) { return c.intensity; });
   for (const Candidate& c : candidates) {
     const V3d out = c.part.part.towards(sphere.center).normalized();
-    if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * kSamePlace) * out)) continue;
+    if (!seesPart(tracer, c.part, sphere.center + (sphere.radius + 2 * tracer.samePlace()) * out)) continue;
     ball.intensity += c.intensity;
     ball.parts.push_back({c.part.part, ball.intensity});
     // The highlight is approximated by a normal distribution of directions. Its variance includes that of a

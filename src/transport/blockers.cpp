@@ -19,9 +19,9 @@ constexpr int kSurfacesInTheWay = 6;
 constexpr size_t kMostFound = 16384;
 
 // The smallest distance that boxes must have from the plane of a polygon that hides one box from the other
-// (world units). Without it, rays could pass the polygon: a surface nearer than kSamePlace to an end of a ray
-// does not block it, and a ray whose cosine to a plane is at most kSamePlace misses the plane.
-double marginOver(double length) { return 10 * kSamePlace + 2 * kSamePlace * length; }
+// (world units). Without it, rays could pass the polygon: a surface nearer than Scene::samePlace to an end of
+// a ray does not block it, and a ray whose cosine to a plane is at most kSamePlace misses the plane.
+double marginOver(double length, double samePlace) { return 10 * samePlace + 2 * kSamePlace * length; }
 
 // The corners of a box, and how far they lie in front of the plane of a blocker (world units). If the blocker
 // is perpendicular to an axis, the first four lie in one plane parallel to it, the others opposite of them.
@@ -43,7 +43,7 @@ struct Corners {
 // whether it has returned true.
 bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRef<bool(SurfaceId)> use) {
   V3d way = to - from, origin = from;
-  double left = way.length() - kSamePlace;
+  double left = way.length() - tracer.samePlace();
   if (!(left > 0)) return false;
   way.normalize();
   SurfaceId last = kNone;
@@ -62,7 +62,7 @@ bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRe
 
 Blockers::Blockers(const Scene& scene, const Tracer& tracer)
     : scene_(scene), tracer_(tracer), joined_(scene, tracer) {
-  if (!tracer.bounds().isEmpty()) margin_ = 2 * marginOver(tracer.bounds().size().length());
+  if (!tracer.bounds().isEmpty()) margin_ = 2 * marginOver(tracer.bounds().size().length(), scene.samePlace);
 }
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
@@ -84,7 +84,8 @@ KnownBlocker Blockers::find(SurfaceId id, const V3d& from) const {
 
 // A polygon is convex if all vertices lie on the inner side of all edges and the edges make one full turn.
 KnownBlocker Blockers::made(SurfaceId id, const Polygon& polygon, bool front) const {
-  if (!tracer_.stopsShadows(id, front) || thicknessOf(polygon, scene_.vertices) > kSamePlace) return nullptr;
+  if (!tracer_.stopsShadows(id, front) || thicknessOf(polygon, scene_.vertices) > scene_.samePlace)
+    return nullptr;
   auto blocker = std::make_shared<Blocker>();
   const double sign = front ? 1 : -1;
   blocker->surface = id;
@@ -93,7 +94,7 @@ KnownBlocker Blockers::made(SurfaceId id, const Polygon& polygon, bool front) co
   blocker->whole = {nullptr, rsphere::bounds(polygon, scene_.vertices), polygon.extent / 2};
   const V3d size = blocker->whole.box.size();
   for (int i = 2; i >= 0; --i)
-    if (size[i] <= kSamePlace) blocker->axis = i;
+    if (size[i] <= scene_.samePlace) blocker->axis = i;
   const auto corners = std::span(scene_.vertices).subspan(polygon.firstVertex, polygon.vertices);
   const auto isConvex = [&] {
     if (corners.size() > Blocker::kMostVertices) return false;
@@ -109,7 +110,7 @@ KnownBlocker Blockers::made(SurfaceId id, const Polygon& polygon, bool front) co
       edge = inward / length;
       blocker->least[blocker->edges] = edge.dot(a);
       for (const V3d& corner : corners)
-        if (edge.dot(corner) < blocker->least[blocker->edges] - kSamePlace) return false;
+        if (edge.dot(corner) < blocker->least[blocker->edges] - scene_.samePlace) return false;
       ++blocker->edges;
       turn += std::atan2((b - a).cross(c - b).dot(polygon.normal), (b - a).dot(c - b));
     }
@@ -186,7 +187,7 @@ bool Blockers::Way::narrowToHoles(const JoinedPolygons::Area& area, int axis, st
 bool Blockers::isClear(const V3d& from, const V3d& to) const {
   V3d way = to - from;
   const double length = way.length();
-  return length > 0 && tracer_.shadow(from, way / length, length - kSamePlace, kNone) == Shadow::clear;
+  return length > 0 && tracer_.shadow(from, way / length, length - scene_.samePlace, kNone) == Shadow::clear;
 }
 
 // Whether every segment from one box to the other hits the front of the blocker (the side from which find()
@@ -204,7 +205,7 @@ bool Blockers::covers(const Blocker& blocker, Way& way) const {
   const Box3d from = way.from, to = way.to;
   Box3d both = from;
   both.extendBy(to);
-  const double margin = marginOver(both.size().length());
+  const double margin = marginOver(both.size().length(), scene_.samePlace);
   const double apart = blocker.axis < 0 ? margin + kBeside * margin_ : margin;
   const double inset = margin + kBeside * margin_;
   const Corners begins(from, blocker), ends(to, blocker);

@@ -37,9 +37,6 @@ constexpr float kApart = 2;
 // body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
 constexpr double kRoomSurface = 20;
 
-// Square of a negligible distance (world units).
-constexpr float kNearest = 1e-12f;
-
 V3d onDisk(const V3d& normal, double radius, double angle) {
   V3d x, y;
   frame(normal, x, y);
@@ -64,14 +61,15 @@ struct BrightSpots::Node {
   Box3d box;  // around the particles
   Spot spot;
   double area = 0;
+  double samePlace;  // Scene::samePlace
 
-  explicit Node(std::span<Particle> some) : particles(some) {
+  Node(std::span<Particle> some, double same) : particles(some), samePlace(same) {
     for (const Particle& p : some) box.extendBy(p.point);
     std::array<double, 3> sides{box.size().x, box.size().y, box.size().z};
     std::sort(sides.begin(), sides.end());
-    area = std::max(sides[1], kSamePlace) * std::max(sides[2], kSamePlace);
+    area = std::max(sides[1], samePlace) * std::max(sides[2], samePlace);
     spot.center = box.center();
-    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * kSamePlace);
+    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * samePlace);
     for (const Particle& p : some) {
       if (p.free < spot.radius) continue;  // in a narrow gap, whose light reaches no other surface
       spot.power += p.power;
@@ -93,7 +91,7 @@ struct BrightSpots::Node {
     const size_t half = particles.size() / 2;
     std::nth_element(particles.begin(), particles.begin() + static_cast<ptrdiff_t>(half), particles.end(),
                      [axis](const Particle& a, const Particle& b) { return a.point[axis] < b.point[axis]; });
-    return {Node(particles.first(half)), Node(particles.subspan(half))};
+    return {Node(particles.first(half), samePlace), Node(particles.subspan(half), samePlace)};
   }
 };
 
@@ -157,7 +155,8 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
 }
 
 BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
-                         const Openings* openings) {
+                         const Openings* openings)
+    : samePlace_(scene.samePlace) {
   if (tracer.bounds().isEmpty()) return;
   spots_.origin = tracer.bounds().center();
   if (openings) {
@@ -193,7 +192,7 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     size_t halves = 0;  // index of the first of the two; 0 if there are none
     double gain() const { return halves > 0 ? finest - node.worth() : 0; }
   };
-  std::vector<Branch> tree{{Node(all)}};
+  std::vector<Branch> tree{{Node(all, samePlace_)}};
   for (size_t i = 0; i < tree.size(); ++i) {
     if (tree[i].node.particles.size() < 2 * kFewest) continue;
     auto halves = tree[i].node.halves();
@@ -247,10 +246,11 @@ RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& fr
              atZ = static_cast<float>(point.z - spots_.origin.z);
   const auto frontX = static_cast<float>(front.x), frontY = static_cast<float>(front.y),
              frontZ = static_cast<float>(front.z);
+  const auto negligible = static_cast<float>(samePlace_ * samePlace_);  // so that no squared distance is 0
   Spots::Numbers comes;
   for (size_t i = 0; i < spots_.count; ++i) {
     const float x = spots_.x[i] - atX, y = spots_.y[i] - atY, z = spots_.z[i] - atZ;
-    const float squared = x * x + y * y + z * z + kNearest, inverse = 1 / std::sqrt(squared);
+    const float squared = x * x + y * y + z * z + negligible, inverse = 1 / std::sqrt(squared);
     const float cosine = (x * frontX + y * frontY + z * frontZ + spots_.radius[i]) * inverse;
     const float facing =
         spots_.anyway[i] - (x * spots_.normalX[i] + y * spots_.normalY[i] + z * spots_.normalZ[i]) * inverse;

@@ -88,7 +88,8 @@ class BrightSpots {
     Numbers x{}, y{}, z{}, normalX{}, normalY{}, normalZ{}, radius{}, anyway{}, power{};
   };
   Spots spots_;
-  double usual_ = 0;  // result of usual(), for the first spots that were found
+  double samePlace_ = kSamePlace;  // Scene::samePlace
+  double usual_ = 0;               // result of usual(), for the first spots that were found
   std::vector<Sunlit> sunlit_;
 };
 

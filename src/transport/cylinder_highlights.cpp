@@ -83,7 +83,7 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
       const V3d out = across(shape, c.part.lighting.part.towards(place));
       const double length = out.length();
       return length > (c.part.lighting.part.distant ? 0 : radius) &&
-             seesPart(tracer, c.part.lighting, place + (radius + 2 * kSamePlace) / length * out);
+             seesPart(tracer, c.part.lighting, place + (radius + 2 * tracer.samePlace()) / length * out);
     });
     if (!seen) continue;
     cylinder.hot += c.part.hot;

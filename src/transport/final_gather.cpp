@@ -108,7 +108,7 @@ Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
 bool TracedFieldRays::sees(const V3d& from, const V3d& to) {
   const V3d way = to - from;
   const double length = way.length();
-  return !(length > kSamePlace) || t_.tracer().isClear(from, way / length, length);
+  return !(length > t_.scene().samePlace) || t_.tracer().isClear(from, way / length, length);
 }
 
 bool TracedFieldRays::smallObjectNear(const GatherSite& site, double side, double lift) {

@@ -202,7 +202,7 @@ Openings findOpenings(const PreparedScene& prepared) {
   const V3d size = bounds.size();
   std::vector<Opening> asked = candidates(prepared, wallOf(size)), found;
   if (asked.empty()) return {{}, 0, 0};
-  Probe probe(prepared, std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * kSamePlace));
+  Probe probe(prepared, std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * prepared.scene().samePlace));
   double all = 0, inside = 0, depth = 0;
   for (Opening& opening : asked) {
     const Seen along = probe.through(opening, opening.normal),

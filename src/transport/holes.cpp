@@ -33,7 +33,7 @@ PlaneKey planeOf(const Polygon& polygon, const V3d& fromOrigin, double size) {
 static_assert(kShapes == 8, "May a new shape be a wall that has holes?");
 // The walls of a scene, the largest first.
 std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastArea, IsWall isWall) {
-  const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, kSamePlace});
+  const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, scene.samePlace});
   std::vector<std::pair<PlaneKey, const Polygon*>> polygons;
   for (const Surface& surface : scene.outermost())
     if (const auto* polygon = surface.shape.as<Polygon>())

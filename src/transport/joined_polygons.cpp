@@ -15,8 +15,8 @@ namespace {
 constexpr double kLeastSize = 1. / 4096;
 // Polygons with more vertices are not joined, because each of their edges is compared with all others.
 constexpr uint32_t kMostVertices = 1024;
-// Coordinates and normals are rounded to multiples of this to find polygons of the same plane. Decimal
-// fractions are rarely halfway between two multiples.
+// Normals are rounded to multiples of this to find polygons of the same plane, and so are offsets, in units
+// in which Scene::samePlace is kSamePlace. Decimal fractions are rarely halfway between two multiples.
 constexpr double kSameNumber = 1.2345678e-6;
 
 // Cap on the edges that are compared to find outlines, for each vertex in a plane. Looking up a point
@@ -39,10 +39,11 @@ double signOf(const V3d& normal) {
   return 1;
 }
 
-uint64_t planeOf(const Polygon& polygon) {
+uint64_t planeOf(const Polygon& polygon, double samePlace) {
   const double sign = signOf(polygon.normal);
   uint64_t number = 0;
-  const std::array values{polygon.normal.x, polygon.normal.y, polygon.normal.z, polygon.offset};
+  const std::array values{polygon.normal.x, polygon.normal.y, polygon.normal.z,
+                          polygon.offset / (samePlace / kSamePlace)};
   for (const double value : values) {
     const auto rounded = static_cast<int64_t>(std::llround(sign * value / kSameNumber));
     number = (number ^ static_cast<uint64_t>(rounded)) * 0x9e3779b97f4a7c15u;
@@ -327,7 +328,7 @@ void JoinedPolygons::sort() const {
     if (!polygon || !polygon->hasArea || polygon->extent < least || polygon->vertices > kMostVertices)
       continue;
     if (tracer_.stopsShadows(id, true) || tracer_.stopsShadows(id, false))
-      polygons_.push_back({planeOf(*polygon), id});
+      polygons_.push_back({planeOf(*polygon, scene_.samePlace), id});
   }
   std::sort(polygons_.begin(), polygons_.end(), [](const InPlane& a, const InPlane& b) {
     return a.plane != b.plane ? a.plane < b.plane : a.polygon.index() < b.polygon.index();
@@ -385,7 +386,7 @@ const JoinedPolygons::Area* JoinedPolygons::areaOf(SurfaceId id, bool front) con
   std::call_once(sorted_, [&] { sort(); });
   const Surface surface = scene_.surfaces[id];
   const Polygon& asked = *surface.shape.as<Polygon>();
-  const uint64_t plane = planeOf(asked);
+  const uint64_t plane = planeOf(asked, scene_.samePlace);
   const auto [begin, end] =
       std::equal_range(polygons_.begin(), polygons_.end(), InPlane{plane, id},
                        [](const InPlane& a, const InPlane& b) { return a.plane < b.plane; });

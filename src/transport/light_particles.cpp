@@ -47,7 +47,7 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
       } else {
         const SurfacePoint at = samplePoint(scene.surfaces[sender.surface].shape, scene.vertices, random);
         direction = sentFrom(at.normal, random);
-        origin = at.point + 2 * kSamePlace * at.normal;
+        origin = at.point + 2 * scene.samePlace * at.normal;
       }
       each(origin, direction, one, scene.surfaces[sender.surface], random);
     }

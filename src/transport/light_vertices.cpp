@@ -224,7 +224,7 @@ bool LightVertices::Path::leave(double where) {
   if (!prepared_.lights().all()[past_.source].isDistant())
     beam_.start = prepared_.lights().all()[past_.source].surface;
   const SourceEmission::Leaving way = all_.starts_.onSources.leave(past_.source, start_.numbers, scratch_);
-  beam_.origin = way.from.point + 2 * kSamePlace * way.from.normal;
+  beam_.origin = way.from.point + 2 * prepared_.scene().samePlace * way.from.normal;
   beam_.direction = way.direction;
   past_.cosineAtSource = way.from.normal.dot(beam_.direction);
   beam_.power = way.power;

@@ -15,8 +15,9 @@
 namespace rsphere {
 namespace {
 
-// With -I: distance (world units) of the fictitious surface from the ray's origin, as in rtrace.
-constexpr double kMeterLength = 1e-5;
+// With -I: distance of the fictitious surface from the ray's origin, as in rtrace, which uses 1e-5; in small
+// scenes it is less (world units).
+double meterLength(const Scene& scene) { return 1e-5 * (scene.samePlace / kSamePlace); }
 
 // Cap on the depth of the recursion, which then takes at most 40 MB of stack. Threads of runRecords() have
 // more.
@@ -88,6 +89,9 @@ class PathTracer::Path final : public RayFollower {
     return primary;
   }
 
+  // What a primary ray starts on. In ray mode, as in rtrace, it passes surfaces at its origin.
+  SurfaceId begins() const { return isRayMode(settings_.mode) ? SurfaceId() : kInSpace; }
+
   Radiance glimpse(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
                    const PathRequest& request = {});
 
@@ -127,8 +131,8 @@ RayResult PathTracer::Path::follow(RayEnd& end) {
 RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
   double length = before.hit.length;
   const auto shorten = [&] {
-    if (before.ray.farthest > kSamePlace)
-      next.query.farthest = std::max(before.ray.farthest - length, 2 * kSamePlace);
+    if (const double least = t_.scene().samePlace; before.ray.farthest > least)
+      next.query.farthest = std::max(before.ray.farthest - length, 2 * least);
   };
   shorten();
   checkDepth(next.context);
@@ -198,13 +202,14 @@ TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double fart
                             const PathRequest& request) {
   path_->begin(seed, direction, request);
   const bool meters = path_->t_.irradiance() == IrradianceAt::point;
-  const RayQuery ray{.origin = origin, .direction = direction, .farthest = meters ? 0 : farthest};
+  const RayQuery ray{
+      .origin = origin, .direction = direction, .farthest = meters ? 0 : farthest, .from = path_->begins()};
   const PathContext context = path_->context();
   RayEnd end(ray, context);
   RayResult result;
   if (meters) {
-    end.hit.length = result.unmirroredLength = kMeterLength;
-    end.hit.point = origin + kMeterLength * direction;
+    end.hit.length = result.unmirroredLength = meterLength(path_->t_.scene());
+    end.hit.point = origin + end.hit.length * direction;
     end.hit.normal = -direction;
     path_->shading_.meter(end, result);
   } else {
@@ -218,8 +223,9 @@ TracedRay PathTracer::traceToSource(const V3d& point, const SourceSample& sample
                                     const PathRequest& request) {
   const PreparedScene& prepared = path_->t_;
   const LightSource& light = prepared.lights().all()[sample.source];
-  const Shadow shadow = prepared.tracer().shadow(point, sample.direction, sample.distance,
-                                                 light.isDistant() ? kNone : light.surface);
+  const Shadow shadow =
+      prepared.tracer().shadow(point, sample.direction, sample.distance,
+                               light.isDistant() ? kNone : light.surface, nullptr, path_->begins());
   if (shadow == Shadow::blocked) return {};
   if (shadow != Shadow::clear) return trace(point, sample.direction, 0, seed, request);
   path_->begin(seed, sample.direction, request);

@@ -238,9 +238,9 @@ Coefficient PlainSurfaces::passing(const V3d& to, const V3d& from, SurfaceId sta
 
 Coefficient PlainSurfaces::passingToSource(const V3d& to, const V3d& direction, double distance,
                                            SurfaceId start) const {
-  const double end = distance * (1 - kEnd) - 2 * kSamePlace;
+  const double end = distance * (1 - kEnd) - 2 * scene_.samePlace;
   if (!(end > 0)) return {};
-  if (tracer_.isClear(to, direction, end)) return Coefficient(1);
+  if (tracer_.isClear(to, direction, end, start)) return Coefficient(1);
   if (!hasPanes_) return {};
   const Sight sight = straight(to, direction, end, start);
   return sight.hit.surface == kNone ? sight.passed : Coefficient();

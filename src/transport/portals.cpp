@@ -6,7 +6,8 @@
 #include "base/constants.h"
 
 namespace rsphere {
-Portals::Portals(const Openings& openings, double size) : lift_(std::max(1e-6 * size, 8 * kSamePlace)) {
+Portals::Portals(const Openings& openings, double size, double samePlace)
+    : lift_(std::max(1e-6 * size, 8 * samePlace)) {
   double brightest = 0;
   for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);
   for (const auto& [place, radiance] : openings.views()) {
@@ -70,8 +71,7 @@ PortalDirections::Sample PortalDirections::draw(Random& random) const {
   Sample sample;
   const double u = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
   if (seen_.empty()) return sample;
-  const auto chosen =
-      std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u < s.upTo; });
+  const auto chosen = std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u < s.upTo; });
   sample.direction = chosen->shape.sample(u1, u2);
   const double even = normal_.dot(sample.direction) / kPi;
   if (even > 0) sample.share = even / density(sample.direction, *chosen);

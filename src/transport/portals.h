@@ -20,8 +20,8 @@ struct Portal : Rectangle {
 class Portals {
  public:
   Portals() = default;
-  // size: the largest side of the scene's box (world units).
-  Portals(const Openings& openings, double size);
+  // size: the largest side of the scene's box (world units). samePlace: Scene::samePlace.
+  Portals(const Openings& openings, double size, double samePlace);
 
   bool empty() const { return portals_.empty(); }
   std::span<const Portal> all() const { return portals_; }

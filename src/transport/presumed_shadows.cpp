@@ -56,7 +56,7 @@ bool PresumedShadows::middleOfCell(const LightSource& light, const V3d& point, c
     origin = corner_;
     if (to[axis] > 0) origin[axis] += size_;
     const double t = (origin[axis] - point[axis]) / to[axis];
-    if (!(t > kSamePlace)) return false;
+    if (!(t > scene_.samePlace)) return false;
     for (const int i : {a, b}) {
       const double slope = to[i] / along, width = size_ * (1 + std::abs(slope)) / (2 * kShadowCells);
       const double low = corner_[i] + std::min(0., size_ * slope);
@@ -106,10 +106,11 @@ bool PresumedShadows::hide(LightId source, const V3d& point, const V3d& directio
       if (light.isDistant() && passed + first.distance <= kLost) return false;
       break;
     }
-    passed += first.distance + 10 * kSamePlace;
+    passed += first.distance + 10 * scene_.samePlace;
   }
   ShapeHit hit;
-  return intersect(scene_.surfaces[first.surface].shape, scene_.vertices, point, direction, distance, hit);
+  return intersect(scene_.surfaces[first.surface].shape, scene_.vertices, point, direction, distance, hit,
+                   scene_.samePlace);
 }
 
 }  // namespace rsphere

@@ -49,7 +49,7 @@ void setTarget(const PreparedScene& prepared, RayEnd& end) {
   if (target.isDistant() && !target.isVirtual()) {
     hit.surface = distantSource(prepared, ray, end.context.kinds);
   } else if (intersect(scene.surfaces[target.surface].shape, scene.vertices, ray.origin, ray.direction,
-                       kFarAway, found)) {
+                       kFarAway, found, scene.samePlace)) {
     hit.surface = target.surface;
     hit.length = found.distance;
     hit.point = along(ray.origin, found.distance, ray.direction);
@@ -63,12 +63,12 @@ void setTarget(const PreparedScene& prepared, RayEnd& end) {
 Hit findHit(const PreparedScene& prepared, RayEnd& end) {
   const RayQuery& ray = end.ray;
   SurfaceHit& hit = end.hit;
+  const bool hasEnd = ray.farthest > 0 && ray.farthest > prepared.scene().samePlace;
   hit.point = ray.origin;
   hit.normal = -ray.direction;
   Hit nearest = ray.unobstructed ? Hit()
-                                 : prepared.tracer().nearest(
-                                       ray.origin, ray.direction,
-                                       ray.farthest > kSamePlace ? ray.farthest : kFarAway, ray.from);
+                                 : prepared.tracer().nearest(ray.origin, ray.direction,
+                                                             hasEnd ? ray.farthest : kFarAway, ray.from);
   if (ray.unobstructed) {
     setTarget(prepared, end);
   } else if (nearest.surface != kNone) {
@@ -81,7 +81,7 @@ Hit findHit(const PreparedScene& prepared, RayEnd& end) {
     hit.u = nearest.u;
     hit.v = nearest.v;
     hit.path = nearest.path;
-  } else if (ray.farthest > kSamePlace) {
+  } else if (hasEnd) {
     hit.point = along(ray.origin, ray.farthest, ray.direction);
   } else {
     hit.surface = distantSource(prepared, ray, end.context.kinds);

@@ -41,7 +41,7 @@ void turnOrGoOn(const Scene& scene, NextRay& next) {
   if (!(kind & kReflections)) {
     next.context.mirror = parent.context.mirror;
     next.query.aimedAt = parent.ray.aimedAt;
-    if (parent.ray.farthest > kSamePlace) next.query.farthest = parent.ray.farthest - parent.hit.length;
+    if (parent.ray.farthest > scene.samePlace) next.query.farthest = parent.ray.farthest - parent.hit.length;
     return;
   }
   ++next.context.level;

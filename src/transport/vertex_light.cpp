@@ -278,7 +278,7 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   }();
   const double u = random.uniform();
   const double farthest = u > 0 ? std::min(vertices_.nearLight().distanceOf(u), kFarAway) : kFarAway;
-  if (!(farthest > kSamePlace)) return {};
+  if (!(farthest > prepared_.scene().samePlace)) return {};
   const Sight sight = surfaces_.look(at.point, direction, farthest, at.surface);
   if (sight.hit.surface == kNone) return {};
   const PlainPlace there = surfaces_.placeOf(at.point, direction, sight, scratch.functions);

@@ -37,9 +37,7 @@ std::string clutter(const V3d& place, int count) {
     const double r = onGrid(between(random, .1, 1.5)), r1 = onGrid(between(random, .1, 1));
     const auto modifier = modifiers[random.bits() % 4];
     switch (i % 6) {
-      case 0:
-        scene += fmt::format("{} sphere s{}\n0\n0\n4{} {}\n", modifier, i, text(at), r);
-        break;
+      case 0: scene += fmt::format("{} sphere s{}\n0\n0\n4{} {}\n", modifier, i, text(at), r); break;
       case 1:
         scene += fmt::format("{} cone s{}\n0\n0\n8{}{} {} {}\n", modifier, i, text(at), text(at + u), r, r1);
         break;
@@ -367,6 +365,39 @@ TEST(Tracer, RaysDoNotHitWhereTheyStart) {
   EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), V3d(0, 0, -1)).surface, SurfaceId(1));
   EXPECT_EQ(tracer.nearest(V3d(0, 0, .5e-6), V3d(0, 0, -1)).surface, SurfaceId(1));
   EXPECT_EQ(tracer.nearest(V3d(0, 0, 2e-6), V3d(0, 0, -1)).surface, SurfaceId(0));
+}
+
+TEST(Tracer, RaysThatStartInSpaceHitWhatIsNear) {
+  const Scene scene = sceneOf(kMaterials + square("gray", "a") + square("gray", "b", true, -5));
+  const Tracer tracer(scene, true);
+  const V3d down(0, 0, -1);
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 1e-9), down, kFarAway, kInSpace).surface, SurfaceId(0));
+  EXPECT_EQ(tracer.nearest(V3d(0, 0, 1e-14), down, kFarAway, kInSpace).surface, SurfaceId(1)) << "rounding";
+  EXPECT_EQ(tracer.shadow(V3d(0, 0, 1e-9), down, 4, kNone, nullptr, kInSpace), Shadow::blocked);
+  EXPECT_EQ(tracer.shadow(V3d(0, 0, 1e-9), down, 4, kNone), Shadow::clear);
+  EXPECT_FALSE(tracer.isClear(V3d(0, 0, 1e-9), down, 4, kInSpace));
+  EXPECT_TRUE(tracer.isClear(V3d(0, 0, 1e-9), down, 4));
+}
+
+// The same scene and rays at other sizes, where 1e-6 would be a wall or less than rounding.
+TEST(Tracer, MarginsFollowTheSizeOfTheScene) {
+  for (const double size : {1e-9, 1e-6, 1e-3, 1., 1e3, 1e9}) {
+    const auto plate = [&](const char* name, double z) {
+      return fmt::format("gray polygon {} 0 0 12 {a} {a} {z} {b} {a} {z} {b} {b} {z} {a} {b} {z}\n", name,
+                         fmt::arg("a", -size), fmt::arg("b", size), fmt::arg("z", z));
+    };
+    const Scene scene = sceneOf(kMaterials + plate("a", 0) + plate("b", -size) +
+                                fmt::format("gray sphere c 0 0 4 0 0 {} {}\n", 2 * size, .5 * size));
+    const Tracer tracer(scene, true);
+    const V3d down(0, 0, -1);
+    EXPECT_EQ(tracer.nearest(V3d(0, 0, 1e-3 * size), down).surface, SurfaceId(0)) << size;
+    EXPECT_EQ(tracer.nearest(V3d(0, 0, 0), down).surface, SurfaceId(1)) << size;
+    const Hit ball = tracer.nearest(V3d(.1 * size, 0, size), V3d(0, 0, 1));
+    EXPECT_EQ(ball.surface, SurfaceId(2)) << size;
+    const V3d onBall = V3d(.1 * size, 0, size) + ball.distance * V3d(0, 0, 1);
+    EXPECT_EQ(tracer.nearest(onBall, ball.normal, kFarAway, ball.surface).surface, SurfaceId(0)) << size;
+    EXPECT_EQ(tracer.shadow(V3d(0, 0, 1e-3 * size), down, .5 * size, kNone), Shadow::blocked) << size;
+  }
 }
 
 TEST(Tracer, StopsAtTheFarthestPlace) {

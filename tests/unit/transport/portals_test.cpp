@@ -19,7 +19,7 @@ const std::string kHoleInWall = "void plastic gray 0 0 5 .5 .5 .5 0 0\n" + kRoom
 
 struct Hole {
   Traced traced{kHoleInWall, unbiased(1)};
-  Portals portals{findOpenings(traced.prepared()), 4};
+  Portals portals{findOpenings(traced.prepared()), 4, kSamePlace};
 };
 
 bool isInHole(const V3d& point, const V3d& d) {
