@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "base/constants.h"
 #include "light/sources.h"
@@ -63,22 +63,84 @@ V3d onDisk(const V3d& center, const PlaneLight& plane, double s, double t) {
   return center + a * plane.u + b * plane.v;
 }
 
-std::array<V3d, 4> cornersOf(const V3d& center, const PlaneLight& plane, const SourcePart& p) {
-  const auto at = [&](double s, double t) { return onParallelogram(center, plane, s, t); };
-  return {at(p.s0, p.t0), at(p.s1, p.t0), at(p.s1, p.t1), at(p.s0, p.t1)};
+// The outline of a part of a disk is replaced by a polygon around it, with this many corners for the whole
+// circle. It is 1.3% larger than the disk; samples beside the disk are dropped.
+constexpr int kCornersOfDisk = 16;
+
+// The same map for parts of a near disk: s is the fraction of the area within a circle, t that of an angle.
+V3d onDiskByAngle(const V3d& center, const PlaneLight& plane, double s, double t) {
+  const double radius = std::sqrt(s), angle = 2 * kPi * t;
+  return center + radius * std::cos(angle) * plane.u + radius * std::sin(angle) * plane.v;
 }
 
-// The signed solid angles (sr) of the triangles on both sides of a diagonal.
-std::pair<double, double> halvesOf(const std::array<V3d, 4>& corners, const V3d& point) {
-  return {triangleSolidAngle(corners[0], corners[1], corners[2], point),
-          triangleSolidAngle(corners[0], corners[2], corners[3], point)};
+// Calls use(a, b, c) for triangles that cover a part of a plane source and do not overlap. They cover no more
+// than the part, except at the circles of a disk. The parts of a disk are those of onDiskByAngle().
+template <class Use>
+void eachTriangle(const V3d& center, const PlaneLight& plane, const SourcePart& part, const Use& use) {
+  const auto useBoth = [&](const V3d& a, const V3d& b, const V3d& c, const V3d& d) {
+    use(a, b, c);
+    use(a, c, d);
+  };
+  match(
+      plane.map,
+      [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
+        const auto at = [&](double s, double t) { return onParallelogram(center, plane, s, t); };
+        useBoth(at(part.s0, part.t0), at(part.s1, part.t0), at(part.s1, part.t1), at(part.s0, part.t1));
+      },
+      [&](const PlaneLight::Disk&) {
+        const int sides = std::max(1, static_cast<int>(std::ceil(kCornersOfDisk * (part.t1 - part.t0))));
+        const double outwards = 1 / std::cos(kPi * (part.t1 - part.t0) / sides);
+        const auto at = [&](double s, int side, double factor) {
+          const V3d from = onDiskByAngle(center, plane, s, part.t0 + side * (part.t1 - part.t0) / sides);
+          return center + factor * (from - center);
+        };
+        for (int i = 0; i < sides; ++i)
+          useBoth(at(part.s0, i, 1), at(part.s1, i, outwards), at(part.s1, i + 1, outwards),
+                  at(part.s0, i + 1, 1));
+      },
+      [&](const PlaneLight::Fan& fan) {
+        for (size_t i = 0; i < fan.areas.size(); ++i) {
+          const double before = i ? fan.areas[i - 1] : 0, after = fan.areas[i];
+          const double from = std::max(part.s0, before), to = std::min(part.s1, after);
+          if (!(from < to)) continue;
+          const auto at = [&](double s, double t) {
+            const double root = std::sqrt((s - before) / (after - before));
+            return (1 - root) * fan.vertices[0] + root * (1 - t) * fan.vertices[i + 1] +
+                   root * t * fan.vertices[i + 2];
+          };
+          useBoth(at(from, part.t0), at(to, part.t0), at(to, part.t1), at(from, part.t1));
+        }
+      });
+}
+
+// The solid angle (sr) of these triangles.
+double solidAngleOf(const LightSource& source, const PlaneLight& plane, const SourcePart& part,
+                    const V3d& point) {
+  double sum = 0;
+  eachTriangle(source.center, plane, part,
+               [&](const V3d& a, const V3d& b, const V3d& c) { sum += triangleSolidAngle(a, b, c, point); });
+  return std::abs(sum);
 }
 
 // True if a part is so near that cosine / distance^2 varies strongly over it. Sampling it by area would then
 // have unbounded variance. towards: the vector from the point to the part's middle.
-bool isNear(const PlaneLight& plane, const SourcePart& part, const V3d& towards) {
-  const double width = 2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
-  return width * width > tuning::SourceParts::kNear * tuning::SourceParts::kNear * towards.length2();
+bool isNear(const LightSource& source, const PlaneLight& plane, const SourcePart& part, const V3d& point,
+            const V3d& towards) {
+  constexpr double kNear = tuning::SourceParts::kNear;
+  if (std::holds_alternative<PlaneLight::Parallelogram>(plane.map) ||
+      std::holds_alternative<PlaneLight::Square>(plane.map)) {
+    const double width =
+        2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
+    return width * width > kNear * kNear * towards.length2();
+  }
+  // Far from a source none of its parts is near.
+  constexpr double kFar = 1 + 4 / kNear;
+  if ((source.center - point).length2() > kFar * kFar * source.radius * source.radius) return false;
+  Box3d box;
+  eachTriangle(source.center, plane, part, [&](const V3d& a, const V3d& b, const V3d& c) {
+    for (const V3d& corner : {a, b, c}) box.extendBy(corner);
+  });
+  return box.size().length2() > kNear * kNear * (box.center() - point).length2();
 }
 
 // Halves a part repeatedly until its half-extents u and v are at most `allowed` times its distance, or until
@@ -153,7 +215,7 @@ class PartSampler {
   void addMiddles(const PlaneLight& plane, const V3d& towards);
   void addNear(const PlaneLight& plane, const SourcePart& part);
   template <class Position>
-  void addParts(const PlaneLight& plane, const Position& at);
+  void addParts(const PlaneLight& plane, bool mayBeNear, const Position& at);
   void addPlane(const PlaneLight& plane, const V3d& towards);
 
   const LightSource& source_;
@@ -353,35 +415,47 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   split(SourcePart{}, divided ? kMostParts : 1, halfLength, 0, allowed_, point_, at, use);
 }
 
-// Samples a part of a parallelogram uniformly by solid angle: all of it, however small the jitter is. The
+// Samples a part of a plane source uniformly by solid angle: all of it, however small the jitter is. The
 // solid angle of a near part is unevenly distributed over its area, so that its middle would be too bright.
 void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
   // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
   // would then fill half the sky.
   if (height <= scene_.samePlace) return;
-  std::array<V3d, 4> aims = cornersOf(source_.center, plane, part);
-  const auto [below, above] = halvesOf(aims, point_);
-  const double omega = std::abs(below + above);
-  for (V3d& corner : aims) corner = (corner - point_).normalized();
-  const double u = random_.uniform() * omega, v = random_.uniform();
-  const bool first = u < std::abs(below);
-  const double half = std::abs(first ? below : above);
-  if (!(half > 0)) return;
-  const V3d direction = sampleTriangle(
-      aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3],
-      std::abs(triangleSolidAngle(aims[0], aims[first ? 1 : 2], aims[first ? 2 : 3], V3d(0, 0, 0))),
-      (first ? u : u - std::abs(below)) / half, v);
-  const double cosine = -direction.dot(plane.normal);
-  if (cosine > kEdgeOn) add(direction, omega, height / cosine);
+  const double omega = solidAngleOf(source_, plane, part, point_);
+  double u = random_.uniform() * omega;
+  const double v = random_.uniform();
+  std::optional<V3d> chosen;
+  eachTriangle(source_.center, plane, part, [&](const V3d& a, const V3d& b, const V3d& c) {
+    if (chosen) return;
+    const double own = std::abs(triangleSolidAngle(a, b, c, point_));
+    if (u < own) {
+      const V3d toA = (a - point_).normalized(), toB = (b - point_).normalized(),
+                toC = (c - point_).normalized();
+      chosen = sampleTriangle(toA, toB, toC, std::abs(triangleSolidAngle(toA, toB, toC, V3d(0, 0, 0))),
+                              u / own, v);
+    }
+    u -= own;
+  });
+  if (!chosen) return;
+  const double cosine = -chosen->dot(plane.normal);
+  if (!(cosine > kEdgeOn)) return;
+  const double length = height / cosine;
+  if (std::holds_alternative<PlaneLight::Disk>(plane.map)) {
+    // Its radius, squared, in units of u and v, which are the radii of an ellipse in images by prisms.
+    const V3d from = point_ + length * *chosen - source_.center, both = plane.u.cross(plane.v);
+    const double a = from.cross(plane.v).dot(both), b = plane.u.cross(from).dot(both);
+    const double square = (a * a + b * b) / (both.length2() * both.length2());
+    if (square < part.s0 || square > part.s1) return;
+  }
+  add(*chosen, omega, length);
 }
 
 // at: maps the unit square to points on the source.
 template <class Position>
-void PartSampler::addParts(const PlaneLight& plane, const Position& at) {
-  const bool mayBeNear = jitter_ > 0 && std::holds_alternative<PlaneLight::Parallelogram>(plane.map);
+void PartSampler::addParts(const PlaneLight& plane, bool mayBeNear, const Position& at) {
   const auto use = [&](const SourcePart& part, const V3d& middle) {
-    if (mayBeNear && isNear(plane, part, middle)) return addNear(plane, part);
+    if (jitter_ > 0 && mayBeNear && isNear(source_, plane, part, point_, middle)) return addNear(plane, part);
     const V3d aim = jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_),
                                      jittered(part.t0, part.t1, jitter_, random_)) -
                                       point_
@@ -397,13 +471,16 @@ void PartSampler::addPlane(const PlaneLight& plane, const V3d& towards) {
       plane.map,
       [&](const OneOf<PlaneLight::Parallelogram, PlaneLight::Square> auto&) {
         if (jitter_ <= 0) return addMiddles(plane, towards);
-        addParts(plane, [&](double s, double t) { return onParallelogram(center, plane, s, t); });
+        addParts(plane, true, [&](double s, double t) { return onParallelogram(center, plane, s, t); });
       },
       [&](const PlaneLight::Disk&) {
-        addParts(plane, [&](double s, double t) { return onDisk(center, plane, s, t); });
+        if (jitter_ > 0 && isNear(source_, plane, {}, point_, towards))
+          return addParts(plane, true,
+                          [&](double s, double t) { return onDiskByAngle(center, plane, s, t); });
+        addParts(plane, false, [&](double s, double t) { return onDisk(center, plane, s, t); });
       },
       [&](const PlaneLight::Fan& fan) {
-        addParts(plane, [&](double s, double t) { return onFan(center, fan, s, t); });
+        addParts(plane, true, [&](double s, double t) { return onFan(center, fan, s, t); });
       });
 }
 
@@ -429,12 +506,10 @@ void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towar
 double LightSources::nearSolidAngle(LightId index, const V3d& point) const {
   const LightSource& source = sources_[index];
   const auto* plane = source.as<PlaneLight>();
-  if (!plane || !std::holds_alternative<PlaneLight::Parallelogram>(plane->map) ||
-      !isNear(*plane, {}, source.center - point) ||
+  if (!plane || !isNear(source, *plane, {}, point, source.center - point) ||
       plane->normal.dot(point - source.center) <= scene_.samePlace)
     return 0;
-  const auto [below, above] = halvesOf(cornersOf(source.center, *plane, {}), point);
-  return std::abs(below + above);
+  return solidAngleOf(source, *plane, {}, point);
 }
 
 }  // namespace rsphere

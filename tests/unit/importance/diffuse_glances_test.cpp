@@ -80,6 +80,24 @@ TEST(DiffuseGlances, CornersAndEdgesOfABoxOfGoals) {
   }
 }
 
+// The same in a tetrahedron, whose walls are no parallelograms.
+TEST(DiffuseGlances, CornersOfATetrahedronOfGoals) {
+  const std::vector<std::string> goals{"w"};
+  const std::string walls =
+      "void plastic w 0 0 5 .6 .6 .6 0 0\n"
+      "w polygon a 0 0 9 0 0 0 4 0 0 0 4 0\nw polygon b 0 0 9 0 0 0 0 4 0 0 0 4\n"
+      "w polygon c 0 0 9 0 0 0 0 0 4 4 0 0\nw polygon d 0 0 9 4 0 0 0 0 4 0 4 0\n";
+  const LampSetting setting(buildScene(rad::readSceneText(walls, "walls.rad"), {}, goals), 1);
+  ASSERT_TRUE(setting.fromBothEnds());
+  for (const V3d& point : {V3d(1, 1, 1), V3d(.01, .01, .01), V3d(.001, .001, .001), V3d(3.9, .02, .02)}) {
+    Sample sample;
+    for (uint64_t rotation = 0; rotation < 8; ++rotation)
+      sample.add(setting.at(point, Weights::silhouettes, 256, rotation));
+    SCOPED_TRACE(fmt::format("{} {} {}", point.x, point.y, point.z));
+    expectMean(sample, 1 + .6 + .36, 1.03);
+  }
+}
+
 const char* const kBareRoom =
     "void plastic wall 0 0 5 .6 .55 .5 0 0\n"
     "wall polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n"

@@ -183,8 +183,8 @@ TEST(Source, ShortWideCylinderLightsByItsSurface) {
         const double angle = 2 * kPi * (i + .5) / kSteps, z = 2 + .1 * (k + .5) / kSteps;
         const V3d normal(std::cos(angle), std::sin(angle), 0), to = .05 * normal + V3d(0, 0, z) - point;
         const double length = to.length();
-        exact += .05 * 2 * kPi * .1 / (kSteps * kSteps) * std::max(0., -to.dot(normal)) *
-                 std::max(0., to.z) / std::pow(length, 4);
+        exact += .05 * 2 * kPi * .1 / (kSteps * kSteps) * std::max(0., -to.dot(normal)) * std::max(0., to.z) /
+                 std::pow(length, 4);
       }
     const auto mean = [&](bool inDepth) {
       return meanIrradiance(scene, point, kUp, SourceSampling{.2, 1, V3d(0, 0, 0), false, inDepth}, 20000);
@@ -400,6 +400,37 @@ TEST(Sources, RightBeforeALargeSource) {
     const Sample e = meanIrradiance(scene, point, normal, {.2, 1}, 6000);
     expectMean(e, normal.z > 0 ? kPi : kPi / 2, 1.1);
     EXPECT_LT(e.standardError() * std::sqrt(6000.), 2.2);
+  }
+}
+
+// The same before polygons that are no parallelograms and before disks, also near their corners and rims.
+TEST(Sources, RightBeforeALargePolygonOrDisk) {
+  const auto outlineOf = [](int corners) {
+    std::vector<V3d> outline;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = -2 * kPi * i / corners;
+      outline.emplace_back(.5 * std::cos(angle), .5 * std::sin(angle), 0);
+    }
+    return outline;
+  };
+  for (const int corners : {3, 5, 200}) {
+    const std::vector<V3d> outline = outlineOf(corners);
+    std::string text = "ring s\n0\n0\n8 0 0 0 0 0 -1 0 .5\n";
+    if (corners < 100) {
+      text = fmt::format("polygon s\n0\n0\n{}", 3 * corners);
+      for (const V3d& p : outline) text += fmt::format(" {} {} {}", p.x, p.y, p.z);
+    }
+    const Scene scene = sceneOf(light(text));
+    for (const V3d& point : {V3d(.05, .1, -.001), V3d(.49, 0, -.001), V3d(.49, .01, -.1), V3d(.51, 0, -.01)})
+      for (const double largest : {0., .2}) {
+        std::vector<V3d> seen;
+        for (const V3d& p : outline) seen.push_back(p - point);
+        const Sample e = meanIrradiance(scene, point, kUp, {largest, 1});
+        SCOPED_TRACE(
+            fmt::format("{} corners, {} {} {}, -ds {}", corners, point.x, point.y, point.z, largest));
+        expectMean(e, polygonIrradiance(seen, kUp), 1.2);
+        EXPECT_LT(e.standardError() * std::sqrt(2000.), 2.2);
+      }
   }
 }
 
