@@ -6,11 +6,13 @@ The patches are those of patches.cal: Tregenza's 145, each divided into factor x
 - Perez, Ineichen, Seals, Michalsky, Stewart 1990, "Modeling daylight availability and irradiance components from direct and global
   irradiance": clearness, brightness, luminous efficacies
 """
+import csv
 import math
+import re
 
 import numpy as np
-
-from sun import air_mass, day_of_year, sun_position
+from fault import fault, lines_of, number, whole
+from sun import MONTHS, air_mass, day_of_year, sun_position
 
 # By clearness, from overcast to clear: a1 to a4 of the first parameter, then those of b, c, d, e (1993, table 1).
 LUMINANCE = np.array("""
@@ -33,23 +35,71 @@ DIRECT = [(57.2, -4.55, -2.98, 117.12), (98.99, -3.46, -1.21, 12.38), (109.83, -
 WATER = math.exp(0.07 * 11 - 0.075)  # at a dew point of 11 degrees
 SOLAR_CONSTANT = 1367  # W/m2
 GROUND = 0.2  # its reflectance, beyond the ground of the scene
+LARGEST_IRRADIANCE = 1500  # W/m2; the sun has at most 1415 outside of the atmosphere, in January
+MISSING = re.compile(r" *9999\.?0* *")  # instead of an irradiance of an .epw
+WEA_PLACE = (("latitude", 1), ("longitude", -1), ("time_zone", -1))  # and the degrees north or east that 1 is
+WEA_HEADER = ("place", *(name for name, _ in WEA_PLACE), "site_elevation", "weather_data_file_units")
+
+
+def hour_of(file, line, date, middle, irradiances):
+    """A row of read_weather(). middle: how long the middle of the hour is before the time in the file."""
+    month = whole(date[0], file, line, "the month", 1, 12)
+    day = whole(date[1], file, line, "the day", 1, 29 if month == 2 else MONTHS[month - 1])
+    hour = number(date[2], file, line, "the hour", 2 * middle, 24) - middle
+    direct = number(irradiances[0], file, line, "the direct normal irradiance", 0, LARGEST_IRRADIANCE)
+    diffuse = number(irradiances[1], file, line, "the diffuse horizontal irradiance", 0, LARGEST_IRRADIANCE)
+    return [month, day, hour, direct, diffuse]
+
+
+def place_of(file, latitude, longitude, zone):
+    """Each is its word, its line, and the degrees north or east that 1 is."""
+    kinds = (("the latitude", latitude, 90), ("the longitude", longitude, 180), ("the time zone", zone, 225))
+    return [
+        unit * number(word, file, line, what, -most / abs(unit), most / abs(unit)) for what, (word, line, unit), most in kinds
+    ]
+
+
+def read_epw(file, lines):
+    place = next(csv.reader(lines[:1]))
+    if len(place) < 9:
+        raise fault(file, 1, f"LOCATION has {len(place)} fields instead of 10")
+    hours, missing = [], 0
+    for line, text in enumerate(lines[8:], 9):
+        row = next(csv.reader([text]), [])
+        if row and len(row) < 16:
+            raise fault(file, line, f"an hour has at least 16 fields, up to the diffuse horizontal irradiance, not {len(row)}")
+        if row and any(MISSING.fullmatch(word) for word in row[14:16]):
+            missing += 1
+        elif row:
+            hours.append(hour_of(file, line, row[1:4], 0.5, row[14:16]))
+    return hours, missing, place_of(file, (place[6], 1, 1), (place[7], 1, 1), (place[8], 1, 15))
+
+
+def read_wea(file, lines):
+    header, hours = {}, []
+    for line, words in enumerate((text.split() for text in lines), 1):
+        if len(words) > 1 and words[0] in WEA_HEADER and not hours:
+            header[words[0]] = words[1], line
+        elif words:
+            lacks = [name for name in WEA_HEADER if name not in header]
+            if lacks:
+                raise fault(file, line, f"the header lacks {lacks[0]}; the weather is an .epw, or a .wea as gendaymtx reads it")
+            if len(words) != 5:
+                raise fault(file, line, f"an hour is month, day, hour, direct normal and diffuse irradiance, not {len(words)} words")
+            hours.append(hour_of(file, line, words[:3], 0, words[3:]))
+    if hours and header["weather_data_file_units"][0] != "1":
+        raise fault(file, header["weather_data_file_units"][1], "weather_data_file_units must be 1: direct normal and diffuse, W/m2")
+    return hours, 0, place_of(file, *((*header[name], unit) for name, unit in WEA_PLACE)) if hours else []
 
 
 def read_weather(path):
-    """Rows of month, day, hour (the middle), direct normal and diffuse horizontal irradiance (W/m2); and latitude, longitude, meridian
-    of the time zone, degrees north and east. The file is .wea or .epw."""
-    with open(path) as file:
-        lines = file.read().split("\n")
-    if lines[0].startswith("LOCATION,"):
-        place = lines[0].split(",")
-        rows = [line.split(",") for line in lines[8:] if line]
-        hours = [[int(r[1]), int(r[2]), int(r[3]) - 0.5, float(r[14]), float(r[15])] for r in rows]
-        return hours, float(place[6]), float(place[7]), 15 * float(place[8])
-    words = dict(line.split(maxsplit=1) for line in lines[:6])
-    if words["weather_data_file_units"] != "1":
-        raise SystemExit(f"{path}: weather_data_file_units must be 1")
-    hours = [[float(word) for word in line.split()] for line in lines[6:] if line]
-    return hours, float(words["latitude"]), -float(words["longitude"]), -float(words["time_zone"])
+    """Rows of month, day, hour (the middle), direct normal and diffuse horizontal irradiance (W/m2); how many more the file marks as
+    missing; and latitude, longitude, meridian of the time zone, degrees north and east. The file is .wea or .epw. Raises Fault."""
+    lines = lines_of(path)
+    hours, missing, place = (read_epw if lines[0].startswith("LOCATION,") else read_wea)(path, lines)
+    if not hours:
+        raise fault(path, None, "has no hours with irradiance" if missing else "has no hours")
+    return hours, missing, place
 
 
 def patches(factor):
@@ -112,9 +162,9 @@ def sky_of(row, place, directions, solid_angles):
     return luminance
 
 
-def sky_matrix(path, factor, wanted=lambda row: True):
-    """Luminances (cd/m2): rows are the hours of the weather file that are wanted, columns the patches. All are 0 by night."""
-    hours, *place = read_weather(path)
+def sky_matrix(weather, factor, wanted=lambda row: True):
+    """Luminances (cd/m2): rows are the hours of read_weather() that are wanted, columns the patches. All are 0 by night."""
+    hours, _, place = weather
     directions, solid_angles = patches(factor)
     chosen = [row for row in hours if wanted(row)]
     matrix = np.zeros((len(chosen), len(solid_angles)), np.float32)
