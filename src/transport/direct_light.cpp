@@ -312,19 +312,26 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
   }
 }
 
-// Estimates the sum over all sources from -Ss sources, sampled in proportion to their weights.
+// Estimates the sum over all sources from -Ss sources, sampled in proportion to their weights. If there are
+// not more than that, each is sampled once.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
   const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point, front);
   const double sum = t_.lights().choice().weigh(at.point, front, sources, scratch_.sourceWeights);
   if (!(sum > 0)) return;
   const int draws = std::max(1, static_cast<int>(t_.options().chosenSources * at.end.context.weight + .5));
+  const bool each = static_cast<size_t>(draws) >= sources.size();
   const double step = sum / draws;
   double next = state_.random.uniform() * step, passed = 0;
   for (size_t i = 0; i < sources.size(); ++i) {
-    for (passed += scratch_.sourceWeights[i]; next < passed; next += step)
+    const double weight = scratch_.sourceWeights[i];
+    const auto add = [&](double factor) {
       addSamples(at, LightId(sources[i]), {0, 1, front, false, !isRayMode(settings_.mode)}, coefficientOf,
-                 step / scratch_.sourceWeights[i], value);
+                 factor, value);
+    };
+    if (each && weight > 0) add(1);
+    if (each) continue;
+    for (passed += weight; next < passed; next += step) add(step / weight);
   }
 }
 
