@@ -187,14 +187,14 @@ class SceneReader {
                                        "scene must write an octree or scene text to standard output",
                                        fault.empty() ? "" : ", ", fault));
     if (builder_.description().files[file].numbered) place.line = 0;
-    if (!fault.empty()) badStatus(place, shown, fault, named || ofOctree_);
+    if (!fault.empty()) badStatus(place, shown, fault, ofOctree_ && !named);
     if (builder_.description().primitives.size() == before)
       warn(place, fmt::format("\"{}\" writes nothing", printable(shown)));
   }
 
   // After the failure of a command, surfaces may be missing without any sign in the results. The failure is
-  // therefore an error, except where rtrace(1) only warns (goesOn): in the scene files of an octree, and for
-  // a command given instead of a file name.
+  // therefore an error, except in the scene files of an octree (goesOn), which was made without these
+  // surfaces.
   void badStatus(Place place, const std::string& shown, const std::string& fault, bool goesOn) const {
     const std::string text = fmt::format("bad status from \"{}\": {}", printable(shown), fault);
     if (!goesOn) throw builder_.error(place, text + "; surfaces that it makes may be missing from the scene");

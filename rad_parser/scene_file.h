@@ -28,10 +28,9 @@ inline constexpr int kDeepestNesting = 100;
 // to 12 digits, and absorption to 6. Its files are searched along RAYPATH, and commands in them run in the
 // directory of their file unless -c is given. Any other command runs in /bin/sh with empty standard input;
 // its output must be scene text, and places in it consist of the command and the line of output. If a command
-// in a scene file ends with a status other than 0 (127 if the shell does not find it), or an xform cannot be
-// executed, this is an error, whereas oconv(1) would continue without its surfaces. It is only a warning, as
-// in rtrace(1), for a command given instead of a file name, and in the scene files of an octree that is not
-// frozen. A file or command without primitives causes a warning.
+// ends with a status other than 0 (127 if the shell does not find it), or an xform cannot be executed, this
+// is an error, whereas oconv(1) would continue without its surfaces. It is only a warning, as in rtrace(1),
+// in the scene files of an octree that is not frozen. A file or command without primitives causes a warning.
 //
 // Throws Error with its place
 // - for a file that cannot be read, and for a command that cannot be started (Status::system);

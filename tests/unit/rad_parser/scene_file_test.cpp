@@ -129,7 +129,8 @@ TEST(SceneFile, MisspeltModifiersHaveTheNearestName) {
   EXPECT_EQ(
       messageOf("void alias pane window_glas"),
       "room.rad:4: alias \"pane\": undefined modifier \"window_glas\"; the nearest is \"window_glass\"");
-  EXPECT_EQ(messageOf("viod sphere s 0 0 0"), "room.rad:4: undefined modifier \"viod\"");
+  EXPECT_EQ(messageOf("viod sphere s 0 0 0"),
+            "room.rad:4: undefined modifier \"viod\"; the nearest is \"void\"");
   EXPECT_EQ(messageOf("Void sphere s 0 0 0"),
             "room.rad:4: undefined modifier \"Void\"; the nearest is \"void\"");
   EXPECT_EQ(messageOf("plaster sphere s 0 0 0"), "room.rad:4: undefined modifier \"plaster\"");
@@ -438,12 +439,12 @@ TEST(SceneFile, ACommandThatFailsIsAnErrorWithItsPlace) {
       errorOf([&] { readFile(outer); }),
       fmt::format("{}:2 (from {}:1): bad status from \"!exit 5\": exit status 5{}", inner, outer, kMissing));
 
-  // It is only a warning for a command given as a scene file: rtrace continues with
-  // the output of the command.
-  std::vector<std::string> warnings;
-  EXPECT_EQ(readFile("!echo void sphere s 0 0 0; exit 3", &warnings).primitives.size(), 1u);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(warnings[0].ends_with(": exit status 3")) << warnings[0];
+  // Given as a scene file, alone or with others. rtrace would continue with the output of the command.
+  const std::string command = "!echo void sphere s 0 0 0; exit 3";
+  const std::string why = fmt::format("{0}:1: bad status from \"{0}\": exit status 3{1}", command, kMissing);
+  EXPECT_EQ(errorOf([&] { readFile(command); }), why);
+  const std::string whole = folder.write("whole.rad", "void sphere s 0 0 4 0 0 0 1\n");
+  EXPECT_EQ(errorOf([&] { rad::readScene(std::vector<std::string>{whole, command}); }), why);
 }
 
 TEST(SceneFile, CommandsDoNotReadTheRecordsOfTheProgram) {
