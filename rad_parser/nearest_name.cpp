@@ -25,14 +25,18 @@ size_t mostChanges(size_t letters) {
 }  // namespace
 
 size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
+  // Rows of the table of distances between the beginnings of a and b: the one for i + 1 letters of a, and the
+  // two before it.
+  std::vector<size_t> row(b.size() + 1), before(row), twoBefore(row);
   for (size_t k = 0; k <= b.size(); ++k) row[k] = k;
   for (size_t i = 0; i < a.size(); ++i) {
-    size_t corner = row[0]++;
+    twoBefore.swap(before);
+    before.swap(row);
+    row[0] = i + 1;
     for (size_t k = 0; k < b.size(); ++k) {
-      const size_t changed = corner + (a[i] != b[k]);
-      corner = row[k + 1];
-      row[k + 1] = std::min({changed, row[k] + 1, corner + 1});
+      row[k + 1] = std::min({before[k] + (a[i] != b[k]), row[k] + 1, before[k + 1] + 1});
+      if (i > 0 && k > 0 && a[i] == b[k - 1] && a[i - 1] == b[k])
+        row[k + 1] = std::min(row[k + 1], twoBefore[k - 1] + 1);
     }
   }
   return row.back();

@@ -6,8 +6,8 @@
 
 namespace rad {
 
-// The number of letters to be changed, added or removed to turn a into b. The time is proportional to the
-// product of the lengths.
+// The number of changes that turn a into b: letters that are replaced, added or removed, and pairs of
+// neighboring letters that are exchanged. The time is proportional to the product of the lengths.
 size_t editDistance(std::string_view a, std::string_view b);
 
 // The most probable intended name for a misspelt one, among those passed to consider(). Only a few letters

@@ -40,12 +40,15 @@ std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of
   if (!bins.expression.empty()) {
     if (bins.zones > 1) throw rad::Error("zones and an expression of bins exclude each other");
     setFunction(bins, one);
+  } else if (!bins.count.empty() || !bins.parameters.empty() || !bins.files.empty()) {
+    throw rad::Error("bins need an expression of the number of a bin");
   } else if (bins.zones > 1) {
     one.bins = static_cast<uint32_t>(bins.zones);
     one.zones = std::make_shared<const EqualZones>(one.bins);
   }
   std::vector<TrackedModifier> modifiers;
   for (const std::string& name : of) {
+    if (name == "void") throw rad::Error("cannot track 'void' modifier");
     const auto same = [&](const TrackedModifier& m) { return m.name == name; };
     if (std::ranges::any_of(modifiers, same)) throw rad::Error(fmt::format("duplicate modifier '{}'", name));
     modifiers.push_back(one);

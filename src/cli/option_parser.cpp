@@ -5,10 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iomanip>
-#include <iterator>
-#include <sstream>
 
 #include "answer/output_colors.h"
 #include "cli/option_table.h"
@@ -19,6 +15,7 @@
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
 #include "rad_parser/printable.h"
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 namespace {
@@ -33,8 +30,6 @@ struct Use {
 };
 
 const Companion kNoCompanion;
-
-std::vector<std::string> splitWords(std::istream& in) { return {std::istream_iterator<std::string>(in), {}}; }
 
 // The words of a command line, and a position at which @file and $VARIABLE are expanded.
 class Words {
@@ -63,29 +58,20 @@ class Words {
 
  private:
   static std::vector<std::string> fromFile(const std::string& name) {
-    errno = 0;
-    std::ifstream file(name.substr(1));
-    std::vector<std::string> words;
-    if (file) {
-      // Reading an endless device ends at the limits on the number and length of words.
-      for (std::string word; words.size() <= kMostExpanded && file >> std::setw(kLongestWord + 1) >> word;) {
-        if (word.size() > kLongestWord)
-          throw rad::Error(fmt::format("cannot expand '{}': a word is too long", name));
-        words.push_back(word);
-      }
-      if (!file.bad()) return words;
-    }
-    throw rad::Error(fmt::format("cannot expand '{}': {}", rad::printableName(name), std::strerror(errno)),
-                     rad::Status::system);
+    const rad::OpenFile file(name.substr(1));
+    if (file.descriptor() < 0) cannotExpand(name, errno);
+    return wordsOf(file, name.substr(1), kMostExpanded);
   }
 
   static std::vector<std::string> fromEnvironment(const std::string& name) {
     const char* text = std::getenv(name.c_str() + 1);
-    if (text == nullptr)
-      throw rad::Error(fmt::format("cannot expand '{}': {}", rad::printableName(name), std::strerror(ENOENT)),
-                       rad::Status::system);
-    std::istringstream in{std::string(text)};
-    return splitWords(in);
+    if (text == nullptr) cannotExpand(name, ENOENT);
+    return wordsOf(std::string_view(text), name, kMostExpanded);
+  }
+
+  [[noreturn]] static void cannotExpand(const std::string& name, int error) {
+    throw rad::Error(fmt::format("cannot expand '{}': {}", rad::printableName(name), std::strerror(error)),
+                     rad::Status::system);
   }
 
   std::vector<std::string> words_;

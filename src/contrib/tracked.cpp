@@ -5,6 +5,7 @@
 #include <array>
 #include <unordered_map>
 
+#include "scene/modifier_names.h"
 #include "transport/ray_functions.h"
 
 namespace rsphere {
@@ -17,8 +18,10 @@ Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> mod
       warn_(std::move(warn)),
       warned_(modifiers_.size()) {
   std::unordered_map<std::string_view, uint32_t> byName;
+  std::vector<std::string> names;
   for (const TrackedModifier& modifier : modifiers_) {
     byName.emplace(modifier.name, static_cast<uint32_t>(firstColumn_.size()));
+    names.push_back(modifier.name);
     firstColumn_.push_back(columns_);
     columns_ += modifier.bins;
   }
@@ -26,6 +29,7 @@ Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> mod
     const auto found = byName.find(finish.name);
     modifierOf_.push_back(found == byName.end() ? kNotTracked : found->second);
   }
+  warnOfMissingModifiers(prepared.scene(), names, "", warn_);
 }
 
 int Tracked::components() const {

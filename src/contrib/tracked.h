@@ -32,8 +32,8 @@ enum class Contributed : uint8_t {
 // Immutable after construction, and shared by all threads.
 class Tracked {
  public:
-  // Keeps a reference to the scene. warn: receives one line for each modifier with an invalid bin number,
-  // from any thread.
+  // Keeps a reference to the scene. warn: receives one line if surfaces lack some of the modifiers, and one
+  // for each modifier with an invalid bin number, from any thread.
   Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> modifiers, Contributed what,
           rad::Warn warn = {});
 

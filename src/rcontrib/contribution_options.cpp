@@ -59,14 +59,15 @@ void addTracking(const Add& add) {
        .paragraph =
            "Tracks surfaces with modifier mod: the light that they send along each path, or the coefficient "
            "of the path (-V), is added up. May be repeated; each record contains the modifiers in this "
-           "order. A modifier that does not exist in the scene has zeros. The latest -p, -b, -bn and -o "
+           "order. A modifier that no surface has is a warning, and has zeros. The latest -p, -b, -bn and -o "
            "before it apply to it."});
   add({.name = "-M",
        .arguments = "file",
        .value = Custom{setModifierFile},
        .remark = "tracked modifiers of a file",
-       .paragraph = "Like -m, for all modifiers in a file. They are separated by white space. The file is "
-                    "searched for along RAYPATH."});
+       .paragraph =
+           "Like -m, for all modifiers in a file. They are separated by white space; quotes include it in a "
+           "name, as in scenes. The file is searched for along RAYPATH."});
   add({.name = "-V",
        .value = +[](Options& o) -> bool& { return own(o).values; },
        .remark = "output contributions|output coefficients",

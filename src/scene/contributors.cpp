@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "base/band_scheme.h"
-#include "rad_parser/nearest_name.h"
+#include "rad_parser/error.h"
+#include "rad_parser/printable.h"
+#include "scene/modifier_names.h"
 
 namespace rsphere {
 namespace {
@@ -45,11 +47,9 @@ void setGoals(Scene& scene, std::span<const std::string> goals) {
     for (Finish& finish : scene.surfaces.finishes())
       if (finish.name == goal) finish.goal = true;
     const auto isOne = [&](const Surface& surface) { return surface.goal && surface.finish.name == goal; };
-    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne)) {
-      rad::NearestName nearest(goal);
-      for (const Surface& surface : scene.surfaces) nearest.consider(scene.modifierName(surface));
-      throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", goal, nearest.hint()));
-    }
+    if (goal == "void" || std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne))
+      throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", rad::printable(goal),
+                                   hintOfModifier(scene, goal)));
   }
   scene.importance = !goals.empty();
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/modifier_names.h"
+
 namespace rsphere {
 namespace {
 
@@ -37,6 +39,7 @@ PreparedScene::PreparedScene(const Scene& scene, std::shared_ptr<const Tracer> t
   const bool including = !options.ambientIncluded.empty();
   const auto& names = including ? options.ambientIncluded : options.ambientExcluded;
   if (names.empty()) return;
+  warnOfMissingModifiers(scene, names, including ? "-ai" : "-ae", warn);
   ambient_.resize(scene.surfaces.size());
   for (const SurfaceId i : scene.surfaces.ids())
     ambient_[i] = (std::find(names.begin(), names.end(), scene.modifierName(scene.surfaces[i])) !=

@@ -86,8 +86,8 @@ class RSPHERE_API Scene {
   // Computes the light that surfaces with each of these modifiers send along rays and the paths that start
   // with them. The modifiers may be those of light sources, the sky, goals or any other surfaces. The
   // contributions of all emitters sum to the value of trace() without interpolation (-aa 0). Throws like
-  // trace(), and if a modifier is named twice, or if bins are invalid. A modifier that is not in the scene
-  // has zeros.
+  // trace(), and if a modifier is named twice, or if bins are invalid. A modifier that no surface has is a
+  // warning, and has zeros.
   Contributions contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
                               const ContributionOptions& options = {}) const;
 

@@ -23,12 +23,15 @@ TEST(EditDistance, CountsChangedAddedAndRemovedLetters) {
   EXPECT_EQ(editDistance("wall", "walls"), 1u);
   EXPECT_EQ(editDistance("floor", "flor"), 1u);
   EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
-  EXPECT_EQ(editDistance("polgyon", "polygon"), 2u) << "two letters in the wrong order";
+  EXPECT_EQ(editDistance("polgyon", "polygon"), 1u) << "two letters in the wrong order";
+  EXPECT_EQ(editDistance("sopt", "spot"), 1u);
+  EXPECT_EQ(editDistance("spot", "tops"), 3u);
 }
 
 TEST(NearestName, IsTheOneWithTheFewestChanges) {
   EXPECT_EQ(nearestOf("window_glas", {"window_frame", "window_glass", "window_grass"}), "window_glass");
   EXPECT_EQ(nearestOf("polgyon", {"sphere", "polygon"}), "polygon");
+  EXPECT_EQ(nearestOf("sopt", {"spot", "wall"}), "spot");
   EXPECT_EQ(nearestOf("WALL", {"wall", "hall"}), "wall") << "case is compared last";
   EXPECT_EQ(nearestOf("Wall", {"ball", "wall"}), "wall");
 }
