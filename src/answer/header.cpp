@@ -84,6 +84,10 @@ std::string provenance(const AnswerOptions& options, std::span<const std::string
   return text + fmt::format("SOFTWARE= {}\n", versionLine());
 }
 
+std::string resolutionLine(const AnswerOptions& options) {
+  return fmt::format("-Y {:8} +X {:8}\n", options.height, options.width);
+}
+
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now, const RecordLayout& layout) {
   std::string text;
@@ -105,8 +109,7 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
       while ((static_cast<size_t>(*start) + text.size() + kLineEnds) % alignment != 0) text += ' ';
     text += "\n\n";
   }
-  if (layout.resolution && options.width > 0 && options.height > 0)
-    text += fmt::format("-Y {:8} +X {:8}\n", options.height, options.width);
+  if (layout.resolution && options.width > 0 && options.height > 0) text += resolutionLine(options);
   writer.write(text);
 }
 

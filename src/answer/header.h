@@ -39,6 +39,9 @@ struct RecordLayout {
   bool resolution = true;  // whether -x and -y add the resolution line
 };
 
+// The line "-Y 480 +X 640" of -x and -y.
+std::string resolutionLine(const AnswerOptions& options);
+
 // Writes an information header like rtrace's, unless it is disabled (-h-):
 //   - provenance()
 //   - CAPDATE= (local time), GMT=

@@ -59,6 +59,9 @@ class BinFunctions {
   BinFunction compile(std::string_view option, const std::string& expression,
                       const BinDefinitions& definitions, BinInputs inputs = BinInputs::ray);
 
+  // Reads the definitions before an expression needs them. Throws like compile().
+  void load(const BinDefinitions& definitions) { libraryOf(definitions); }
+
  private:
   rad::calc::Library& libraryOf(const BinDefinitions& definitions);
 

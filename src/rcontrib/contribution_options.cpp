@@ -151,7 +151,8 @@ void addOutputs(const Add& add) {
        .paragraph =
            "Toggles recovery: the existing files of -o are completed after the last record that all of them "
            "have, and the rays of the earlier records are read but not traced. The numbers are those of an "
-           "uninterrupted run. Not with text, nor with -c 0."});
+           "uninterrupted run: the header of each file must have the options of this run, except for -n, -t, "
+           "-w, -r and -fo. Not with text, nor with -c 0."});
 }
 
 // The features that -features lists in addition to those of all programs, in the words of RADIANCE's
@@ -221,7 +222,10 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
   std::vector<TrackedModifier> modifiers;
   BinFunctions functions;
   double columns = 0;
+  // As in RADIANCE, a file that cannot be read is an error even if no bin uses it.
+  functions.load(options.next.definitions);
   for (const TrackedName& tracked : options.tracked) {
+    functions.load(tracked.definitions);
     std::optional<BinFunction> bin = binOf(tracked, functions);
     const uint32_t bins = bin ? binCountOf(tracked, functions) : 1;
     modifiers.push_back({tracked.name, bins, std::move(bin)});

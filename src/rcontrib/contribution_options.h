@@ -15,6 +15,8 @@ struct TrackedName {
   std::string bins;                    // -bn; empty: not given
   BinDefinitions definitionsOfBins{};  // definitions before -bn, used to evaluate it
   std::string output{};                // -o; empty: standard output
+
+  bool operator==(const TrackedName&) const = default;
 };
 
 // The options of rcontrib: its own, and those of rtrace that affect light.

@@ -16,6 +16,7 @@
 #include "answer/header.h"
 #include "answer/record_text.h"
 #include "rad_parser/open_file.h"
+#include "rcontrib/recovered_header.h"
 
 namespace rsphere {
 namespace {
@@ -60,28 +61,6 @@ size_t recordBytes(const ContributionOptions& options, const OutputPlan& plan, s
     case NumberFormat::float64: return columns * components * sizeof(double);
     default: return columns * (components + 1);
   }
-}
-
-// The offset of the records in a file. Throws rad::Error if its header differs from that of this run.
-size_t recordsBeginIn(const std::string& name, const std::string& bytes, const ContributionOptions& options,
-                      const RecordLayout& layout) {
-  size_t begin = 0;
-  if (options.header) {
-    const size_t end = bytes.find("\n\n");
-    const std::string expected =
-        fmt::format("{}FORMAT={}", layout.lines, formatName(options.out, options.color));
-    for (size_t at = 0; at < expected.size();) {
-      const size_t next = std::min(expected.find('\n', at), expected.size());
-      const std::string line = '\n' + expected.substr(at, next - at);
-      if (end == std::string::npos || bytes.substr(0, end).find(line) == std::string::npos)
-        throw rad::Error(
-            fmt::format("cannot recover {}: its header lacks {}", rad::printableName(name), line.substr(1)));
-      at = next + 1;
-    }
-    begin = end + 2;
-  }
-  if (layout.resolution) begin = bytes.find('\n', begin) + 1;
-  return begin;
 }
 
 }  // namespace

@@ -154,7 +154,11 @@ TEST(RecordSums, OfAllRaysAreOneRecord) {
 TEST(ContributionOutputs, FilesThatExistAreKeptOverwrittenOrCompleted) {
   const Columns columns({1, 1});
   const Folder folder;
-  ContributionOptions options = columns.options(folder.path + "/%s", NumberFormat::float32);
+  ContributionOptions options;
+  parseCompanion(
+      std::vector<std::string>{"rcontrib", "-faf", "-o", folder.path + "/%s", "-m", "a", "-m", "b", "s.oct"},
+      contributionCompanion(), options);
+  finish(options);
   const std::string a = folder.path + "/a", b = folder.path + "/b";
   const auto run = [&](int from, int to) {
     ContributionOutputs outputs(options, *columns.tracked, {});
