@@ -60,21 +60,21 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a communicating program may read the header before it sends a record
   requirePictureNames(options, reader);
-  PointSummary summary;
+  RunSummary summary;
   RunEnd end;
   end.leave = [&](const std::exception_ptr& fault) {
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };
-  if (options.sphereMode)
-    end.ended = [&] {
-      for (const std::string& text : summary.warnings(options.sphere, transport.prepared())) warn(text);
-    };
+  end.ended = [&] {
+    for (const std::string& text : summary.warnings(options, transport.prepared())) warn(text);
+  };
   const auto checkStop = [&] { signals.check(); };
   runRecords(reader, writer, options, messages, &signals,
-             !options.sphereMode           ? answerRays(transport, options, answers, warn)
-             : options.sphere.glare.wanted ? answerGlare(transport, options, answers, warn, checkStop)
-                                           : answerPoints(transport, options, answers, warn, summary,
-                                                          checkStop, pictureReport(options, messages)),
+             !options.sphereMode ? answerRays(transport, options, answers, warn, summary)
+             : options.sphere.glare.wanted
+                 ? answerGlare(transport, options, answers, warn, summary, checkStop)
+                 : answerPoints(transport, options, answers, warn, summary, checkStop,
+                                pictureReport(options, messages)),
              end);
 }
 

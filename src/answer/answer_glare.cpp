@@ -30,11 +30,12 @@ GlareAnswer GlareWorkers::answer(const Record& record, unsigned worker) {
 }
 
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                         const rad::Warn& warn, const std::function<void()>& checkStop) {
+                         const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop) {
   const auto workers = std::make_shared<GlareWorkers>(transport, options, checkStop);
   if (isDark(transport.prepared())) warn("no light sources found");
   return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const GlareAnswer answer = workers->answer(record, worker);
+    summary.add(record.index, answer, transport.prepared());
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (const GlareSource& source : answer.sources)
       writer.write(bytes, source, answer, transport.prepared().scene(), record.index);

@@ -5,6 +5,7 @@
 #include "answer/answer_options.h"
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
+#include "answer/run_summary.h"
 #include "importance/glare_estimator.h"
 
 namespace rsphere {
@@ -32,6 +33,6 @@ class GlareWorkers {
 // if nothing in the scene emits light. checkStop: see GlareWorkers; it is copied. All other arguments must
 // exist as long as the result.
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                         const rad::Warn& warn, const std::function<void()>& checkStop);
+                         const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop);
 
 }  // namespace rsphere

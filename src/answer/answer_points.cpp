@@ -17,9 +17,6 @@ namespace {
 // Makes the random numbers of a picture independent of those of the answer at the same point.
 constexpr uint64_t kPictureSeed = 0x70696374757265;  // "picture"
 
-// The relative error of a mean that is 0 or negative.
-constexpr double kAnyError = 1e30;
-
 // Draws the pictures of points, with separate options.
 class PictureMaker {
  public:
@@ -65,60 +62,13 @@ PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& opti
   }
 }
 
-void PointSummary::Some::add(uint64_t record, double value) {
-  ++points;
-  if (value < most || (value == most && record > worst)) return;
-  worst = record;
-  most = value;
-}
-
-void PointSummary::add(uint64_t record, const PointAnswer& answer, const SpectralSampling* sampling) {
-  const std::lock_guard lock(mutex_);
-  ++points_;
-  const double mean = photopicOf(answer.mean.color, sampling);
-  if (answer.isDark) unlit_.add(record, 0);
-  if (!answer.reached && !answer.isDark)
-    missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
-  if (answer.clamped > 0) {
-    const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
-    clamped_.add(record, share);
-    billionths_ += static_cast<uint64_t>(1e9 * share);
-  }
-}
-
-std::vector<std::string> PointSummary::warnings(const SphereOptions& options,
-                                                const PreparedScene& prepared) const {
-  const std::lock_guard lock(mutex_);
-  std::vector<std::string> texts;
-  if (unlit_.points > 0 && !isDark(prepared))
-    texts.push_back(fmt::format(
-        "no {} reaches {} of {} points, or almost none; the first is record {}: check the units of the "
-        "points, and whether they lie inside of something{}",
-        prepared.scene().importance ? "importance" : "light", unlit_.points, points_, unlit_.worst + 1,
-        prepared.scene().importance ? ", or behind the goals, which emit from their front" : ""));
-  if (missed_.points > 0)
-    texts.push_back(fmt::format(
-        "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
-        "{}",
-        options.accuracy, missed_.points, points_, options.mostOfAllSets(), missed_.worst + 1,
-        missed_.most < kAnyError ? fmt::format("{:.3g}%", 100 * missed_.most) : "no light"));
-  if (clamped_.points > 0)
-    texts.push_back(fmt::format(
-        "-Sf {:g} clamped {} of {} points and took {:.3g}% of their light on average; the most is record {}: "
-        "{:.3g}%",
-        options.clamp, clamped_.points, points_,
-        1e-7 * static_cast<double>(billionths_) / static_cast<double>(clamped_.points), clamped_.worst + 1,
-        100 * clamped_.most));
-  return texts;
-}
-
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
   const bool one = options.height == 1 && options.width <= 1;
   if (!options.picture.empty() && !one && reader.arrived(2) > 1) pictureName(options.picture, 1);
 }
 
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
-                          const AnswerWriter& writer, const rad::Warn& warn, PointSummary& summary,
+                          const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
                           const std::function<void()>& checkStop,
                           const PictureProgress::Report& pictureReport) {
   const bool standardError = options.outputs.find_first_of("eZ") != std::string::npos;
@@ -133,7 +83,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
     std::optional<PictureFile> picture;
     if (pictures) picture.emplace(pictureName(options.picture, record.index));
     const PointAnswer answer = workers->answer(point, worker);
-    summary.add(record.index, answer, options.ray.sampling);
+    summary.add(record.index, answer, transport.prepared());
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
     if (pictures) pictures->write(*picture, point, workspace.checkStop);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);

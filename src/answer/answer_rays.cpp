@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "answer/threads.h"
+#include "scene/modifier_names.h"
 #include "transport/ray_report.h"
 
 namespace rsphere {
@@ -19,14 +20,16 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
 }
 
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn) {
+                        const rad::Warn& warn, RunSummary& summary) {
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const ShownShadows shadows = options.treeShadows ? ShownShadows::all : ShownShadows::thatPassSurfaces;
   const bool valueAlone = options.outputs == "v";
   if (value && lacksSources(transport.prepared())) warn("no light sources found");
-  return [&, tracers, trees, value, valueAlone, shadows](const Record& record, unsigned worker,
-                                                         std::string& bytes) {
+  warnOfMissingModifiers(transport.prepared().scene(), options.treeExcluded, "-te", warn);
+  warnOfMissingModifiers(transport.prepared().scene(), options.treeIncluded, "-ti", warn);
+  const AnswerRecord answerRay = [&, tracers, trees, value, valueAlone, shadows](
+                                     const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in =
         inputRay(record.numbers.data(), options.irradiance, transport.prepared().scene().samePlace);
     if (record.bogus) return writer.write(bytes, bogusAnswer(in), record.index);
@@ -45,6 +48,7 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
     answer.value = ray.value;
     writer.write(bytes, answer, record.index);
   };
+  return withSensors(answerRay, options, transport.prepared(), summary);
 }
 
 }  // namespace rsphere

@@ -5,6 +5,7 @@
 
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
+#include "answer/run_summary.h"
 #include "transport/transport.h"
 
 namespace rsphere {
@@ -17,8 +18,9 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values
-// are requested and the scene has no light source. All arguments must exist as long as the result.
+// are requested and the scene has no light source; also of names of -te and -ti that are the modifier of no
+// surface. The summary gets the sensors of -I. All arguments must exist as long as the result.
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn);
+                        const rad::Warn& warn, RunSummary& summary);
 
 }  // namespace rsphere

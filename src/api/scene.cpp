@@ -141,9 +141,8 @@ struct Answerer {
     if (options.sphere.glare.wanted)
       answer = withSources(checkStop);
     else
-      answer = options.sphereMode
-                   ? answerPoints(scene->transport, options, writer, warn, summary.emplace(), checkStop)
-                   : answerRays(scene->transport, options, writer, warn);
+      answer = options.sphereMode ? answerPoints(scene->transport, options, writer, warn, *summary, checkStop)
+                                  : answerRays(scene->transport, options, writer, warn, *summary);
   }
   // For contributions to rays.
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
@@ -152,9 +151,10 @@ struct Answerer {
     contributions.emplace(scene->transport, options, std::move(modifiers),
                           how.coefficients ? Contributed::coefficients : Contributed::values, how.samples,
                           warn);
-    answer = [this](const Record& record, unsigned worker, std::string& bytes) {
+    const AnswerRecord answerRay = [this](const Record& record, unsigned worker, std::string& bytes) {
       contributions->answer(record, worker, bytes);
     };
+    answer = withSensors(answerRay, options, scene->transport.prepared(), *summary);
   }
   Answerer(const Answerer&) = delete;
   Answerer& operator=(const Answerer&) = delete;
@@ -163,7 +163,7 @@ struct Answerer {
   const std::shared_ptr<PreparedScene> scene;
   const AnswerWriter writer;
   const rad::Warn warn;
-  std::optional<PointSummary> summary;
+  std::optional<RunSummary> summary{std::in_place};  // of the call
   std::optional<RayContributions> contributions;
   std::atomic<bool> stop = false;
   AnswerRecord answer;
@@ -184,6 +184,7 @@ AnswerRecord Answerer::withSources(const std::function<void()>& checkStop) {
   ofSources->sphere.everyDirection = true;
   return [this, workers, ofSources](const Record& record, unsigned worker, std::string& bytes) {
     const GlareAnswer glare = workers->answer(record, worker);
+    summary->add(record.index, glare, scene->transport.prepared());
     writer.write(bytes, glare);
     const AnswerWriter list(*ofSources);
     for (const rsphere::GlareSource& source : glare.sources)
@@ -545,12 +546,10 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
         answers.sources[record] = takeSources(at, bytes.data() + bytes.size());
     };
 
-    if (answerer->summary) answerer->summary.emplace();
+    answerer->summary.emplace();
     Call(*answerer, numbers, keep).run(options.stop);
-    if (answerer->summary)
-      for (const std::string& text :
-           answerer->summary->warnings(parsed.sphere, prepared->transport.prepared()))
-        warn(text);
+    for (const std::string& text : answerer->summary->warnings(parsed, prepared->transport.prepared()))
+      warn(text);
     giveBack(given.key, std::move(answerer));
     return answers;
   });
@@ -590,6 +589,8 @@ Contributions Scene::Implementation::contributions(std::span<const double> numbe
     }
     const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
     Call(answerer, numbers, keep).run(options.stop);
+    for (const std::string& text : answerer.summary->warnings(given.options, prepared->transport.prepared()))
+      warnings.collector()(text);
     return result;
   });
 }

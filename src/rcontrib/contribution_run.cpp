@@ -63,14 +63,20 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   RecordSums sums(outputs, tracked.columns(), static_cast<size_t>(tracked.components()), rays,
                   outputs.recovered());
   const AnswerOptions paced = pacedByRays(options);
+  RunSummary summary;
   RunEnd end;
+  end.ended = [&] {
+    for (const std::string& text : summary.warnings(options, transport.prepared())) warn(text);
+  };
   end.leave = [&](const std::exception_ptr& fault) {
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };
   bool shortInput = false;
   end.shortInput = [&shortInput] { shortInput = true; };
   runRecords(reader, sums, paced, messages, &signals,
-             answerContributions(tracers, options, scene.samePlace, outputs.recovered() * rays), end);
+             withSensors(answerContributions(tracers, options, scene.samePlace, outputs.recovered() * rays),
+                         options, transport.prepared(), summary),
+             end);
   if (sums.end() > 0)
     warn("partial record: the last one is the mean over the rays that are left, fewer than -c");
   outputs.close();

@@ -1,0 +1,135 @@
+#include "answer/run_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/spectral_sampling.h"
+
+namespace rsphere {
+namespace {
+
+// The relative error of a mean that is 0 or negative.
+constexpr double kAnyError = 1e30;
+
+// A point is far away from the scene at more than this many diagonals of the box around its surfaces. Points
+// in millimetres are some 500 diagonals away from a room in metres, points in centimetres 50. Photometry of a
+// luminaire needs 5 to 10.
+constexpr double kFar = 30;
+
+bool isFarAway(const V3d& point, const Box3d& scene) {
+  if (scene.isEmpty()) return false;
+  const V3d size = scene.max - scene.min;
+  double distance2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double outside = std::max({0., scene.min[axis] - point[axis], point[axis] - scene.max[axis]});
+    distance2 += outside * outside;
+  }
+  return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
+}
+
+// Whether all surfaces are lamps or goals: points of photometry are far away from a bare lamp.
+bool shinesAlone(const Scene& scene) {
+  const SurfaceList::Beginning surfaces = scene.outermost();
+  return std::none_of(surfaces.begin(), surfaces.end(),
+                      [&](const Surface& surface) { return isBlack(sourceRadiance(scene, surface)); });
+}
+
+}  // namespace
+
+void RunSummary::Some::add(uint64_t record, double value) {
+  ++records;
+  if (value < most || (value == most && record > worst)) return;
+  worst = record;
+  most = value;
+}
+
+void RunSummary::addPlace(uint64_t record, const V3d& point, bool unlit, const PreparedScene& prepared) {
+  ++records_;
+  if (unlit)
+    unlit_.add(record);
+  else if (isFarAway(point, prepared.tracer().bounds()))
+    far_.add(record);
+}
+
+void RunSummary::add(uint64_t record, const PointAnswer& answer, const PreparedScene& prepared) {
+  const SpectralSampling* const sampling = prepared.options().sampling;
+  const std::lock_guard lock(mutex_);
+  addPlace(record, answer.point, answer.isDark, prepared);
+  const double mean = photopicOf(answer.mean.color, sampling);
+  if (!answer.reached && !answer.isDark)
+    missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
+  if (answer.clamped > 0) {
+    const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
+    clamped_.add(record, share);
+    billionths_ += static_cast<uint64_t>(1e9 * share);
+  }
+}
+
+void RunSummary::add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared) {
+  const std::lock_guard lock(mutex_);
+  addPlace(record, answer.eye, !(answer.indices.illuminance > 0), prepared);
+  if (std::isinf(answer.indices.ugr)) infinite_.add(record);
+}
+
+void RunSummary::addSensor(uint64_t record, const V3d& point, const PreparedScene& prepared) {
+  const std::lock_guard lock(mutex_);
+  addPlace(record, point, false, prepared);
+}
+
+std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
+                                              const PreparedScene& prepared) const {
+  const std::lock_guard lock(mutex_);
+  const SphereOptions& sphere = options.sphere;
+  const bool importance = prepared.scene().importance;
+  const std::string_view places = !options.sphereMode ? "sensors" : sphere.glare.wanted ? "eyes" : "points";
+  std::vector<std::string> texts;
+  if (unlit_.records > 0 && !isDark(prepared))
+    texts.push_back(fmt::format(
+        "no {} reaches {} of {} {}, or almost none; the first is record {}: check the units of the "
+        "{}, and whether they lie inside of something{}",
+        importance ? "importance" : "light", unlit_.records, records_, places, unlit_.worst + 1, places,
+        importance ? ", or behind the goals, which emit from their front" : ""));
+  if (far_.records > 0 && !shinesAlone(prepared.scene())) {
+    const Box3d& box = prepared.tracer().bounds();
+    texts.push_back(fmt::format(
+        "{} of {} {} are far away from the scene, which reaches from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} "
+        "{:.4g}; the first is record {}: check the units of the {}",
+        far_.records, records_, places, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z,
+        far_.worst + 1, places));
+  }
+  if (infinite_.records > 0)
+    texts.push_back(fmt::format(
+        "UGR is infinite at {} of {} eyes; the first is record {}: all light there comes from glare sources, "
+        "so that the background is black",
+        infinite_.records, records_, infinite_.worst + 1));
+  if (missed_.records > 0)
+    texts.push_back(fmt::format(
+        "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
+        "{}",
+        sphere.accuracy, missed_.records, records_, sphere.mostOfAllSets(), missed_.worst + 1,
+        missed_.most < kAnyError ? fmt::format("{:.3g}%", 100 * missed_.most) : "no light"));
+  if (clamped_.records > 0)
+    texts.push_back(fmt::format(
+        "-Sf {:g} clamped {} of {} points and took {:.3g}% of their light on average; the most is record {}: "
+        "{:.3g}%",
+        sphere.clamp, clamped_.records, records_,
+        1e-7 * static_cast<double>(billionths_) / static_cast<double>(clamped_.records), clamped_.worst + 1,
+        100 * clamped_.most));
+  return texts;
+}
+
+AnswerRecord withSensors(AnswerRecord answer, const AnswerOptions& options, const PreparedScene& prepared,
+                         RunSummary& summary) {
+  if (options.irradiance != IrradianceAt::point) return answer;
+  return [answer = std::move(answer), &prepared, &summary](const Record& record, unsigned worker,
+                                                           std::string& bytes) {
+    answer(record, worker, bytes);
+    if (!record.bogus)
+      summary.addSensor(record.index, {record.numbers[0], record.numbers[1], record.numbers[2]}, prepared);
+  };
+}
+
+}  // namespace rsphere

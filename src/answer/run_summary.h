@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "answer/answer_options.h"
+#include "answer/batch.h"
+#include "importance/glare_answer.h"
+#include "importance/point_answer.h"
+#include "transport/prepared_scene.h"
+
+namespace rsphere {
+
+// Collects data for the warnings at the end of a run from its answers. Thread-safe; the warnings do not
+// depend on the order of the answers.
+class RunSummary {
+ public:
+  // What is answered at a point, at an eye (-Su), and for a sensor of -I.
+  void add(uint64_t record, const PointAnswer& answer, const PreparedScene& prepared);
+  void add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared);
+  void addSensor(uint64_t record, const V3d& point, const PreparedScene& prepared);
+
+  // Points where almost no direction finds light, or none. If the whole scene is dark, another warning says
+  // so:
+  //   "no light reaches 3 of 20 points, or almost none; the first is record 7: check the units of the ..."
+  // Other points, and sensors, that are far away from a scene that does not consist of lamps alone:
+  //   "3 of 20 points are far away from the scene, which reaches from 0 0 0 to 8 6 4; the first is ..."
+  // Eyes before a black background:
+  //   "UGR is infinite at 3 of 20 eyes; the first is record 7: ..."
+  // Points with light where the accuracy of -Sa was not reached:
+  //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
+  // Points where -Sf removed light:
+  //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
+  std::vector<std::string> warnings(const AnswerOptions& options, const PreparedScene& prepared) const;
+
+ private:
+  // Records to warn about, with the worst of them; of equal ones the first.
+  struct Some {
+    uint64_t records = 0, worst = 0;
+    double most = -1;
+    void add(uint64_t record, double value = 0);
+  };
+  void addPlace(uint64_t record, const V3d& point, bool unlit, const PreparedScene& prepared);
+
+  mutable std::mutex mutex_;
+  uint64_t records_ = 0;
+  Some unlit_, far_;
+  Some infinite_;  // UGR
+  Some missed_;    // -Sa: relative standard errors of the mean brightness
+  Some clamped_;   // -Sf: fractions of the unclamped light that were removed
+  // The sum of these fractions as a whole number, so that it does not depend on the order of summation.
+  uint64_t billionths_ = 0;
+};
+
+// Adds the sensors that `answer` answers to the summary. Returns `answer` itself for rays other than those of
+// -I. Keeps references.
+AnswerRecord withSensors(AnswerRecord answer, const AnswerOptions& options, const PreparedScene& prepared,
+                         RunSummary& summary);
+
+}  // namespace rsphere
