@@ -92,12 +92,15 @@ const py::object& required(const py::object& argument, const char* needs) {
   return argument;
 }
 
-// The scene of a method. Scene.__new__(Scene) and objects of other classes have none.
+// Whether __init__() of a Scene has been called. It has not after Scene.__new__(Scene).
+bool isMade(const py::object& self) {
+  return reinterpret_cast<py::detail::instance*>(self.ptr())->get_value_and_holder().holder_constructed();
+}
+
+// The scene of a method. Objects of other classes have none.
 const Scene& sceneOf(const py::object& self) {
   if (!py::isinstance<Scene>(self)) throw py::type_error("this method belongs to a Scene");
-  auto* const instance = reinterpret_cast<py::detail::instance*>(self.ptr());
-  if (!instance->get_value_and_holder().holder_constructed())
-    throw py::type_error("the Scene has no files: it must be made by Scene(files)");
+  if (!isMade(self)) throw py::type_error("the Scene has no files: it must be made by Scene(files)");
   return self.cast<const Scene&>();
 }
 
@@ -318,6 +321,21 @@ std::unique_ptr<Scene> readScene(const py::object& files, const py::args& more, 
   return withoutLock(options, [&] { return std::make_unique<Scene>(paths, options); });
 }
 
+// Replaces __init__() by one that raises TypeError if it is called again: pybind11 ignores such a call, and
+// the object would keep its first scene.
+void refuseSecondInit(py::class_<Scene>& scene) {
+  const py::object init = scene.attr("__init__");
+  const auto once = [init](const py::object& self, const py::args& arguments, const py::kwargs& keywords) {
+    if (py::isinstance<Scene>(self) && isMade(self))
+      throw py::type_error("this Scene has its files already: other files make another Scene(files)");
+    init(self, *arguments, **keywords);
+  };
+  py::options options;
+  options.disable_function_signatures();  // the text has that of `init`
+  const auto text = init.attr("__doc__").cast<std::string>();
+  scene.attr("__init__") = py::cpp_function(once, py::name("init"), py::is_method(scene), text.c_str());
+}
+
 py::object photometricOf(const py::object& color) {
   const py::module_ numpy = py::module_::import("numpy");
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
@@ -464,7 +482,8 @@ PYBIND11_MODULE(rsphere, m) {
                     importanceText = std::string(kImportance) + kOptions,
                     glareText = std::string(kGlare) + kOptions,
                     contributionsText = std::string(kContributions) + kOptions;
-  py::class_<Scene>(m, "Scene", kScene)
+  py::class_<Scene> scene(m, "Scene", kScene);
+  scene
       .def(py::init(&readScene), py::arg("files") = py::none(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>())
       .def("trace", &trace, py::arg("rays") = py::none(), traceText.c_str())
@@ -474,6 +493,7 @@ PYBIND11_MODULE(rsphere, m) {
       .def("glare", &glare, py::arg("eyes") = py::none(), py::arg("gazes") = py::none(), glareText.c_str())
       .def("contributions", &contributions, py::arg("rays") = py::none(), py::arg("of") = py::none(),
            py::kw_only(), py::arg("bins") = py::none(), py::arg("samples") = 8,
+  refuseSecondInit(scene);
            py::arg("coefficients") = false, contributionsText.c_str());
   m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
         "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");

@@ -380,6 +380,48 @@ class Faults(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
+    def test_modifiers_that_no_surface_has(self):
+        scene = rsphere.Scene(FURNACE)
+        ray = [[0, 0, 0, 0, 0, 1]]
+        with self.assertWarnsRegex(UserWarning, 'no surface has the modifier "sopt"'):
+            answers = scene.contributions(ray, of=["sopt"])
+        self.assertEqual(np.abs(answers.value).sum(), 0)
+        for name in ("void", "sopt"):
+            with self.assertRaisesRegex(rsphere.Error, "no surface has the goal's modifier"):
+                scene.importance([[0, 0, 0]], goals=[name])
+        with self.assertRaisesRegex(rsphere.Error, "cannot track 'void' modifier"):
+            scene.contributions(ray, of=["void"])
+        with self.assertRaisesRegex(rsphere.Error, "bins need an expression"):
+            scene.contributions(ray, of=["sopt"], bins={"files": ["reinhart.cal"]})
+
+    def test_points_and_sensors_far_away(self):
+        scene = rsphere.Scene(ROOM)
+        far = [[0.5, 0.5, 1], [500, 500, 1000]]
+        for ask in (
+            lambda: scene.sphere(far),
+            lambda: scene.trace(np.hstack([far, far]), irradiance_at_origin=True),
+            lambda: scene.glare(far, [1, 0, 0]),
+            lambda: scene.contributions(np.hstack([far, far]), of=["wall"], irradiance_at_origin=True),
+        ):
+            with self.assertWarnsRegex(UserWarning, "1 of 2 .*; the first is record 2: check the units of the"):
+                ask()
+
+    def test_a_scene_keeps_its_files(self):
+        scene = rsphere.Scene(FURNACE)
+        for files in (["nosuch.rad"], ROOM):
+            with self.assertRaisesRegex(TypeError, "this Scene has its files already"):
+                scene.__init__(files)
+        with self.assertRaisesRegex(TypeError, "needs files"):
+            rsphere.Scene()
+        self.assertIn("files: object = None", rsphere.Scene.__init__.__doc__)
+
+    def test_options_of_the_other_mode(self):
+        scene = rsphere.Scene(FURNACE)
+        with self.assertRaisesRegex(rsphere.Error, "option '-Sa': needs sphere mode"):
+            scene.trace([[0, 0, 0, 0, 0, 1]], accuracy=0.1)
+        with self.assertRaisesRegex(rsphere.Error, "option '-I': needs ray mode"):
+            scene.sphere([[0, 0, 0]], irradiance_at_origin=True)
+
     def test_others_run_during_a_call(self):
         """While one thread computes, others count and compute: the lock of the interpreter is released."""
         scene = rsphere.Scene(ROOM)
