@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -14,8 +15,8 @@
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
-#include "rad_parser/printable.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 
 namespace rsphere {
 namespace {
@@ -80,6 +81,14 @@ class Words {
 
 bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
 
+// Whether a switch has this state after its name. The letters that rtrace's switches take are not states of
+// -S and the like, where they would hide that there is no such option: -SN.
+bool hasState(const OptionEntry& entry, std::string_view state) {
+  const bool letter = !state.empty() && std::isalpha(static_cast<unsigned char>(state[0])) != 0;
+  return std::holds_alternative<SwitchValue>(entry.value) && switched(state, false) &&
+         !(letter && startsWith(entry.name, "-S"));
+}
+
 // The option named by a word: the whole word or, if there is none, a switch with its state or a name followed
 // directly by its value. Null if there is no such option. takes: Companion::takes.
 const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_view word,
@@ -88,8 +97,7 @@ const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_vi
   for (const OptionEntry& entry : table)
     if (!entry.glued && entry.name == word && isTaken(entry)) return &entry;
   for (const OptionEntry& entry : table)
-    if (std::holds_alternative<SwitchValue>(entry.value) && startsWith(word, entry.name) &&
-        switched(word.substr(entry.name.size()), false) && isTaken(entry))
+    if (startsWith(word, entry.name) && hasState(entry, word.substr(entry.name.size())) && isTaken(entry))
       return &entry;
   const OptionEntry* found = nullptr;
   for (const OptionEntry& entry : table)
@@ -305,10 +313,6 @@ void checkIrradiance(Options& options) {
     return options.outputs.find_first_of(letters) != std::string::npos;
   };
   if (options.irradiance != IrradianceAt::none) {
-    if (options.sphereMode)
-      throw rad::Error(
-          fmt::format("{} needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances",
-                      options.irradianceAtPoint ? "-I" : "-i"));
     if (options.treeOutputs.empty() && !uses("vVrRxXlnW"))
       throw rad::Error("-I+ and -i+ options require some value output");
   }
@@ -329,7 +333,6 @@ constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 // -SG
 void checkSensors(const Options& options) {
   if (options.sensors.empty()) return;
-  if (!options.sphereMode) commandLineError("-SG", "needs sphere mode: rays do not meet sensors");
   if (options.sphere.weights != Weights::silhouettes)
     commandLineError("-SG", "needs -Sw c, which aims at sensors");
   if (!options.picture.empty()) commandLineError("-SG", "sensors cannot be seen: not with -Si");
@@ -350,7 +353,6 @@ void checkParts(const Options& options) {
 void makeBins(Options& options) {
   SphereOptions& sphere = options.sphere;
   if (sphere.zoneOf.empty() && sphere.zoneCount.empty()) return;
-  if (!options.sphereMode) commandLineError("-Szb", "needs sphere mode; for bins of rays, use rcontrib");
   if (sphere.zoneOf.empty()) commandLineError("-Szn", "needs -Szb, an expression of the bin");
   if (sphere.zoneCount.empty()) commandLineError("-Szb", "needs -Szn, the number of bins");
   if (sphere.zones > 0) commandLineError("-Szb", "bins and zones (-Sz) exclude each other");
@@ -361,11 +363,15 @@ void makeBins(Options& options) {
 // -Su
 void checkGlare(const Options& options) {
   const SphereOptions& sphere = options.sphere;
+  const GlareOptions usual;
+  if (!sphere.glare.wanted && sphere.glare.threshold != usual.threshold)
+    commandLineError("-Sub", "needs -Su, glare at an eye");
+  if (!sphere.glare.wanted && sphere.glare.taskOpening != usual.taskOpening)
+    commandLineError("-Sut", "needs -Su, glare at an eye");
   if (!sphere.glare.wanted) return;
   const auto refuse = [](bool given, std::string_view name, std::string_view why) {
     if (given) commandLineError(name, fmt::format("not with -Su: {}", why));
   };
-  if (!options.sphereMode) commandLineError("-Su", "needs sphere mode (-S)");
   refuse(!options.goals.empty(), "-Sg", "goals emit importance, but glare is computed from radiance");
   refuse(!options.sensors.empty(), "-SG", "goals emit importance, but glare is computed from radiance");
   refuse(options.separate, "-Sp", "a glare index is not a sum of parts");
@@ -385,7 +391,6 @@ void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   if (!options.sphereMode) return;
-  if (options.limitDistance) throw rad::Error("-ld needs ray mode (-S-): points have no direction vector");
   if (options.listSpecial && !options.picture.empty())
     commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");
   SphereOptions& sphere = options.sphere;
@@ -450,6 +455,20 @@ std::string_view usualOutputs(const Options& options) {
   const SphereOptions& sphere = options.sphere;
   if (sphere.glare.wanted) return sphere.everyDirection ? "idlwps" : "uvbg";
   return sphere.everyDirection ? "odwv" : "v";
+}
+
+// Throws rad::Error for an option that has no effect in the mode, unless it is a switch that is off.
+void checkModes(const std::vector<Use>& uses, Options& options) {
+  for (const Use& use : uses) {
+    const OptionEntry& entry = *use.entry;
+    const auto* const value = std::get_if<SwitchValue>(&entry.value);
+    if (worksIn(entry, options.sphereMode) || (value && !(*value)(options))) continue;
+    const bool points = entry.mode == Mode::points;
+    commandLineError(entry.name, fmt::format("needs {}: {}", points ? "sphere mode (-S+)" : "ray mode (-S-)",
+                                             !entry.elsewhere.empty() ? entry.elsewhere
+                                             : points                 ? "it has no effect on rays"
+                                                                      : "it has no effect on points"));
+  }
 }
 
 // Reads the option named by `word`, and its values from the following words.
@@ -532,6 +551,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   options.words.assign(words.before().begin(), words.before().end());
   for (const Use& use : given.uses)
     if (use.entry->name != "-S") apply(use, options);
+  checkModes(given.uses, options);
   if (options.outputs.empty()) options.outputs = usualOutputs(options);
   const bool answers = options.request == Request::answers;
   if (answers) options.scene = takeScene(words);

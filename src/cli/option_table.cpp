@@ -280,6 +280,8 @@ void addRecordOptions(const Add& add) {
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtPoint; },
        .remark = "immediate irradiance on|immediate irradiance off",
+       .mode = Mode::rays,
+       .elsewhere = "in sphere mode -oE, -oC and -oH give irradiances",
        .paragraph =
            "Toggles irradiance (W/m2) at a sensor: the origin of each ray is the place of the sensor, and "
            "its direction is the direction in which the sensor looks. As in rtrace, the ray is traced "
@@ -326,6 +328,8 @@ void addRecordOptions(const Add& add) {
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.limitDistance; },
        .remark = "limit distance on|limit distance off",
+       .mode = Mode::rays,
+       .elsewhere = "points have no direction vector",
        .paragraph =
            "Toggles limited rays: each ray ends at the length of its direction vector. Ray mode only."});
   add({.name = "-h",
@@ -398,6 +402,8 @@ void addRayOptions(const Add& add) {
        .group = Group::records,
        .value = +[](O& o) -> bool& { return o.irradianceAtHit; },
        .remark = "irradiance calculation on|irradiance calculation off",
+       .mode = Mode::rays,
+       .elsewhere = "in sphere mode -oE, -oC and -oH give irradiances",
        .paragraph =
            "Toggles the irradiance (W/m2) of the surface that a ray hits, instead of the radiance (W/sr/m2) "
            "that the surface sends back along the ray. Rays pass through glass and similar materials as if "
@@ -406,6 +412,8 @@ void addRayOptions(const Add& add) {
        .group = Group::program,
        .value = +[](O& o) -> bool& { return o.ray.uncorrelated; },
        .remark = "uncorrelated Monte Carlo sampling|correlated quasi-Monte Carlo sampling",
+       .mode = Mode::rays,
+       .elsewhere = "a repeated point has the same answer; -Sr N selects other random numbers",
        .paragraph =
            "Toggles different random numbers for a ray that is repeated. With -u+, the random numbers of a "
            "ray depend on its number in the input as well as on the ray itself, so that the mean of the "
@@ -539,7 +547,8 @@ void addAmbientOptions(const Add& add) {
        .paragraph =
            "Accepted without effect. rtrace gradually replaces the ambient value by the mean of the "
            "indirect light that it has computed. Here an answer does not depend on those before it, and "
-           "the ambient value remains that of -av."});
+           "the ambient value remains that of -av.",
+       .support = Support::unused});
   add({.name = "-ab",
        .arguments = "N",
        .group = Group::indirect,
@@ -800,6 +809,8 @@ void addTreeOptions(const Add& add) {
          .group = Group::trees,
          .value = Custom{setModifiers},
          .remark = name == "-te" ? "modifier left out of ray trees" : "modifier in ray trees",
+         .mode = Mode::rays,
+         .elsewhere = "points have no ray trees",
          .paragraph = name == "-te"
                           ? "Leaves rays that hit a surface with modifier mod out of the trees of -ot and "
                             "-oT. May be repeated. A later -ti or -tI discards the list. The blank "
@@ -814,6 +825,8 @@ void addTreeOptions(const Add& add) {
          .group = Group::trees,
          .value = Custom{setModifiers},
          .remark = name == "-tE" ? "modifiers left out of ray trees" : "modifiers in ray trees",
+         .mode = Mode::rays,
+         .elsewhere = "points have no ray trees",
          .paragraph = name == "-tE"
                           ? "Like -te, for all modifiers in a file. They are separated by white space. "
                             "The file is searched for along RAYPATH."
@@ -883,6 +896,8 @@ void addDirectionOptions(const Add& add) {
        .range = {1, 1000000},
        .unit = "directions",
        .remark = "base directions",
+       .mode = Mode::points,
+       .elsewhere = "for rays, -ad is the number of indirect rays",
        .paragraph =
            "Number of base directions. They cover the sphere evenly and are the same for every point."});
   add({.name = "-Sx",
@@ -892,6 +907,7 @@ void addDirectionOptions(const Add& add) {
        .range = {1, 4000000},
        .unit = "directions",
        .remark = "most directions",
+       .mode = Mode::points,
        .paragraph =
            "Largest number of directions for one point: base directions, directions to special objects, "
            "directions to light sources and, where light is uneven, directions that follow the light. "
@@ -909,6 +925,7 @@ void addWeightOptions(const Add& add) {
        .value = +[](O& o) -> double& { return o.sphere.densityFactor; },
        .range = kNotNegative,
        .remark = "density factor",
+       .mode = Mode::points,
        .paragraph =
            "Factor on the density of directions (1/sr) towards special objects. With 0 and -Sw c, all "
            "directions have equal weights except those to light sources that are seen directly, there are no "
@@ -920,6 +937,8 @@ void addWeightOptions(const Add& add) {
        .value = +[](O& o) -> double& { return o.sphere.accuracy; },
        .range = kFraction,
        .remark = "accuracy",
+       .mode = Mode::points,
+       .elsewhere = "for rays, -ad, -as and -aa determine the accuracy",
        .paragraph =
            "Adaptive accuracy: the program averages sets of directions, each of -Sn base directions and "
            "those for special objects, until the estimated standard error of the mean's brightness is below "
@@ -934,6 +953,7 @@ void addWeightOptions(const Add& add) {
        .value = +[](O& o) -> double& { return o.sphere.clamp; },
        .range = kFraction,
        .remark = "clamp: largest share of one direction",
+       .mode = Mode::points,
        .paragraph =
            "Clamp of single directions, against outliers (fireflies): the part of a direction's "
            "contribution to the mean that exceeds the estimate by glances is limited to this fraction of "
@@ -948,6 +968,7 @@ void addWeightOptions(const Add& add) {
        .group = Group::sphere,
        .value = Custom{setWeights},
        .remark = "weights: h equal, v Voronoi, c Voronoi within silhouettes",
+       .mode = Mode::points,
        .paragraph =
            "Weights of the directions. h: equal weights for the base directions, and no other directions. "
            "v: the solid angle of each direction's cell in a spherical Voronoi diagram. c: the same, with "
@@ -982,6 +1003,8 @@ void addAnswerOptions(const Add& add) {
        .group = Group::sphere,
        .value = Custom{setSensors},
        .remark = "sensors as goals",
+       .mode = Mode::points,
+       .elsewhere = "rays do not meet sensors",
        .paragraph =
            "Computes importance for sensors or eyes, which are places without a surface. The file is "
            "searched for along RAYPATH. For each sensor it contains x y z and the direction dx dy dz that "
@@ -1015,6 +1038,8 @@ void addAnswerOptions(const Add& add) {
        .value = +[](O& o) -> int& { return o.sphere.zones; },
        .range = {0, 100000},
        .remark = "zones of directions",
+       .mode = Mode::points,
+       .elsewhere = "for bins of rays, use rcontrib",
        .paragraph =
            "Divides all directions into N zones of equal solid angle. The letter z of -o writes their mean "
            "radiances, and Z the standard errors of these; see OUTPUT. 0: there are no zones."});
@@ -1023,6 +1048,8 @@ void addAnswerOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.sphere.zoneOf; },
        .remark = "bins of directions",
+       .mode = Mode::points,
+       .elsewhere = "for bins of rays, use rcontrib",
        .paragraph =
            "Divides all directions into user-defined bins instead of -Sz zones. bin is an expression for "
            "the number of the bin, from 0, that contains the direction Dx, Dy, Dz in which the point looks; "
@@ -1035,6 +1062,7 @@ void addAnswerOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.sphere.zoneCount; },
        .remark = "number of bins",
+       .mode = Mode::points,
        .paragraph = "Number of bins of -Szb, as a constant expression: at most 100,000."});
   add({.name = "-Sb",
        .group = Group::sphere,
@@ -1047,6 +1075,7 @@ void addAnswerOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.everyDirection; },
        .remark = "every direction|mean of directions",
+       .mode = Mode::points,
        .paragraph =
            "Toggles a record for every direction instead of the mean at a point; with -Su, for every glare "
            "source of an eye. See OUTPUT."});
@@ -1058,6 +1087,7 @@ void addGlareOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.glare.wanted; },
        .remark = "glare at an eye|means at a point",
+       .mode = Mode::points,
        .paragraph =
            "Toggles glare instead of means. A record is then an eye and its gaze: six numbers, the place "
            "and the direction in which it looks, which is not vertical; z is up. The answer is the unified "
@@ -1070,12 +1100,14 @@ void addGlareOptions(const Add& add) {
        .arguments = "factor",
        .group = Group::sphere,
        .value = +[](O& o) -> double& { return o.sphere.glare.threshold; },
-       .range = kNotNegative,
+       .range = {.01, kInfinity},
        .remark = "threshold of glare sources",
+       .mode = Mode::points,
        .paragraph =
            "Threshold of luminance above which regions are glare sources; light sources are always glare "
            "sources. Above 100, it is in cd/m2. Otherwise it is a factor, as in evalglare: on the mean "
-           "luminance of the task (-Sut) or, without a task, of all directions in front of the eye."});
+           "luminance of the task (-Sut) or, without a task, of all directions in front of the eye. Needs "
+           "-Su."});
   add({.name = "-Sut",
        .arguments = "below opening",
        .group = Group::sphere,
@@ -1083,6 +1115,7 @@ void addGlareOptions(const Add& add) {
        .range = {-90, 180},
        .unit = "degrees",
        .remark = "task: angle below the gaze, opening",
+       .mode = Mode::points,
        .paragraph =
            "The task, such as a screen or a book: a disk of directions with its middle `below` degrees "
            "under the line of sight, and `opening` degrees wide. If -Sub is at most 100 (usually 5), the "
@@ -1158,6 +1191,7 @@ void addInspectionOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.verify; },
        .remark = "verify weights|weights not verified",
+       .mode = Mode::points,
        .paragraph =
            "Toggles verification of the weights of each point: they must sum to 4 pi, and no circle through "
            "three neighboring directions may contain a fourth. Otherwise the program stops with an error."});
@@ -1166,6 +1200,8 @@ void addInspectionOptions(const Add& add) {
        .group = Group::sphere,
        .value = +[](O& o) -> std::string& { return o.picture; },
        .remark = "picture of each point",
+       .mode = Mode::points,
+       .elsewhere = "for pictures of rays, use -fac with -x and -y",
        .paragraph =
            "Draws a picture of the light that arrives at each point from all directions. The extension of "
            "the name selects the format. The answers do not change. The half a million pixels of a picture "

@@ -28,6 +28,9 @@ enum class Group : uint8_t {
 // How an option is supported: fully; accepted without effect; or refused with a reason.
 enum class Support : uint8_t { full, unused, refused };
 
+// The mode in which an option has an effect.
+enum class Mode : uint8_t { both, points, rays };
+
 // The range of numbers that an option accepts, including both ends. Others are errors of the command line.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
@@ -59,10 +62,14 @@ struct OptionEntry {
   std::string_view arguments{};  // names of the words after it: "N", "red grn blu"; or nothing
   Group group = Group::program;
   OptionValue value{};
-  Range range{};                 // of each of its numbers
-  std::string_view unit{};       // unit of the numbers, if any
-  std::string_view remark{};     // one line for -defaults; for switches "on|off"
-  std::string_view help{};       // used instead of the remark in -help, where rtrace's remark is unclear
+  Range range{};              // of each of its numbers
+  std::string_view unit{};    // unit of the numbers, if any
+  std::string_view remark{};  // one line for -defaults; for switches "on|off"
+  std::string_view help{};    // used instead of the remark in -help, where rtrace's remark is unclear
+  // The only mode that it works in, and what to say besides where it is refused in the other mode. A switch
+  // that is off is accepted in both.
+  Mode mode = Mode::both;
+  std::string_view elsewhere{};
   std::string_view paragraph{};  // for the manual
   Support support = Support::full;
   std::string_view reason{};  // why it is refused
@@ -80,6 +87,11 @@ struct OptionEntry {
 // All options in the order of -defaults: those of rtrace in rtrace's order, then those of rsphere.
 std::span<const OptionEntry> optionTable();
 
+// Whether the option has an effect in the mode.
+inline bool worksIn(const OptionEntry& entry, bool sphereMode) {
+  return entry.mode == Mode::both || (entry.mode == Mode::points) == sphereMode;
+}
+
 // The number of words that follow the option.
 int arity(const OptionEntry& entry);
 
@@ -95,7 +107,8 @@ RayOptions pictureDefaults();
 //   words that they contain, at most 4096.
 // - Sphere mode is on unless the program is called rtrace; -S overrides this. The defaults of the mode are
 //   set first, then the options in order. A switch without state toggles; + 1 y Y t T switch on, - 0 n N f F
-//   off.
+//   off. Switches that begin with -S take no letters, so that -SN 8 is not a switch before a scene called 8.
+// - An option that only works in the other mode is an error.
 // - The scene begins at the first word that is not an option, and consists of all remaining words.
 // - The command line ends at -version (or --version), -defaults or -help (or --help). -features is an
 //   option only as the first word.

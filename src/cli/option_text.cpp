@@ -231,7 +231,9 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                      isSwitch             ? entry.remark.substr(0, entry.remark.find('|'))
                      : entry.help.empty() ? entry.remark
                                           : entry.help,
-                     value.empty() ? "" : fmt::format(" [{}]", value));
+                     entry.support == Support::unused ? " (no effect)"
+                     : value.empty()                  ? ""
+                                                      : fmt::format(" [{}]", value));
 }
 
 // The part of a manual on one option. `more` follows its paragraph.
@@ -298,7 +300,8 @@ std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry
   Options values = options;
   std::string text;
   for (const OptionEntry& entry : optionTable())
-    if (const std::string line = lineOf(entry, values); !line.empty() && (!takes || takes(entry)))
+    if (const std::string line = lineOf(entry, values);
+        !line.empty() && worksIn(entry, options.sphereMode) && (!takes || takes(entry)))
       text += fmt::format("{}# {}\n", line, remarkOf(entry, options));
   return text;
 }

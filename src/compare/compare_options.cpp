@@ -42,6 +42,7 @@ std::vector<OptionEntry> makeTable() {
        .range = {8, kMost},
        .unit = "rays",
        .remark = "rays of the original per point",
+       .mode = Mode::points,
        .paragraph =
            "Number of orientations of the plane whose irradiance the original computes at each point. For "
            "points (-S) only."});

@@ -71,11 +71,11 @@ OriginalProgram findOriginal() {
 std::vector<std::string> originalOptions(const Options& options, std::span<const UsedOption> used) {
   std::vector<std::string> words;
   if (options.sphereMode) {
-    const Options rays = modeDefaults(false), points = modeDefaults(true);
-    std::istringstream rayLines(defaultsText(rays)), pointLines(defaultsText(points));
-    for (std::string a, b; std::getline(rayLines, a) && std::getline(pointLines, b);) {
-      if (a == b || b.rfind("-S", 0) == 0) continue;
-      std::istringstream line(b.substr(0, b.find('#')));
+    const std::string ofRays = '\n' + defaultsText(modeDefaults(false));
+    std::istringstream ofPoints(defaultsText(modeDefaults(true)));
+    for (std::string given; std::getline(ofPoints, given);) {
+      if (ofRays.find(fmt::format("\n{}\n", given)) != std::string::npos || given.starts_with("-S")) continue;
+      std::istringstream line(given.substr(0, given.find('#')));
       for (std::string word; line >> word;) words.push_back(word);
     }
   }

@@ -396,11 +396,10 @@ Raises rsphere.Error.)";
 constexpr const char* kOptions = R"(
 Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
 ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
-irradiance_at_surface, directions, most_directions, accuracy, bins (zones of directions at points), outputs
-(letters of -o), threads (0: one for each core), arguments (a list of words as on the command line). Any other
-option of the command is a keyword
-without its hyphen: ab=5, av=(.1, .1, .1), dv=False; as_=512 is -as 512. Options that are neither switches nor
-have values, such as -pY, go into arguments=["-pY"].
+irradiance_at_surface (both of rays), directions, most_directions, accuracy, bins (zones of directions; all of
+points), outputs (letters of -o), threads (0: one for each core), arguments (a list of words as on the command
+line). Any other option of the command is a keyword without its hyphen: ab=5, av=(.1, .1, .1), dv=False;
+as_=512 is -as 512. Options that are neither switches nor have values, such as -pY, go into arguments=["-pY"].
 
 Calls that repeat the same options are fast; only threads, outputs and colors may differ.
 Raises rsphere.Error.)";
@@ -493,8 +492,8 @@ PYBIND11_MODULE(rsphere, m) {
       .def("glare", &glare, py::arg("eyes") = py::none(), py::arg("gazes") = py::none(), glareText.c_str())
       .def("contributions", &contributions, py::arg("rays") = py::none(), py::arg("of") = py::none(),
            py::kw_only(), py::arg("bins") = py::none(), py::arg("samples") = 8,
-  refuseSecondInit(scene);
            py::arg("coefficients") = false, contributionsText.c_str());
+  refuseSecondInit(scene);
   m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
         "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),

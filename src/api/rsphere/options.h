@@ -37,7 +37,8 @@ struct Bins {
 
 // Options for answering rays and points. All options of the command rsphere are available. Empty members keep
 // the command's defaults, which for rays are those of rtrace, and for points suit means over thousands of
-// directions. man/rsphere.1 describes the options by the names given here.
+// directions. man/rsphere.1 describes the options by the names given here. Options that have an effect on
+// points alone are errors for rays, and the reverse.
 struct Options {
   // Light
   std::optional<int> ambientBounces;                  // -ab  diffuse reflections

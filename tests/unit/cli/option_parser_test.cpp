@@ -216,12 +216,63 @@ TEST(ParseOptions, IrradianceCountsAsInRtrace) {
 }
 
 TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
-  EXPECT_EQ(faultOfOptions({"rsphere", "-I+", "s.oct"}),
-            "-I needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances");
-  EXPECT_EQ(faultOfOptions({"rsphere", "-i", "s.oct"}),
-            "-i needs ray mode (-S-); in sphere mode -oE, -oC and -oH give irradiances");
+  EXPECT_EQ(
+      faultOfOptions({"rsphere", "-I+", "s.oct"}),
+      "command line error at '-I': needs ray mode (-S-): in sphere mode -oE, -oC and -oH give irradiances; "
+      "see -help");
+  EXPECT_EQ(
+      faultOfOptions({"rsphere", "-i", "s.oct"}),
+      "command line error at '-i': needs ray mode (-S-): in sphere mode -oE, -oC and -oH give irradiances; "
+      "see -help");
   EXPECT_EQ(faultOfOptions({"rsphere", "-ld", "s.oct"}),
-            "-ld needs ray mode (-S-): points have no direction vector");
+            "command line error at '-ld': needs ray mode (-S-): points have no direction vector; see -help");
+}
+
+// No option is accepted where it has no effect, except for switches that are off.
+TEST(ParseOptions, OptionsOfTheOtherModeAreRefused) {
+  int refused = 0;
+  for (const OptionEntry& entry : optionTable()) {
+    if (entry.mode == Mode::both) continue;
+    ++refused;
+    const bool points = entry.mode == Mode::points,
+               isSwitch = std::holds_alternative<SwitchValue>(entry.value);
+    std::vector<std::string> words{points ? "rtrace" : "rsphere", std::string(entry.name)};
+    if (isSwitch) words.back() += '+';
+    for (int i = 0; i < arity(entry); ++i) words.emplace_back(entry.name == "-Sw" ? "h" : "1");
+    const TemporaryFile sensors("0 0 0 0 0 1");
+    if (entry.arguments == "file") words.back() = sensors.path;
+    words.emplace_back("s.oct");
+    EXPECT_NE(faultOf([&] { parseOptions(words); }).find(points ? "needs sphere mode" : "needs ray mode"),
+              std::string::npos)
+        << entry.name;
+    if (!isSwitch) continue;
+    words[1].back() = '-';
+    EXPECT_NO_THROW(parseOptions(words)) << entry.name;
+  }
+  EXPECT_GE(refused, 20);
+}
+
+TEST(ParseOptions, SwitchesOfSphereModeTakeNoLetters) {
+  EXPECT_EQ(faultOfOptions({"rsphere", "-SN", "512", "s.oct"}),
+            "command line error at '-SN': there is no such option; the nearest is \"-Sn\"; see -help");
+  for (const char* word : {"-Sy", "-SF", "-Sdn", "-SuT"})
+    EXPECT_NE(faultOfOptions({"rsphere", word, "s.oct"}).find("there is no such option"), std::string::npos);
+  EXPECT_FALSE(parse({"rsphere", "-S0", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"rtrace", "-S1", "s.oct"}).sphereMode);
+  EXPECT_TRUE(parse({"rsphere", "-bvN", "-wy", "s.oct"}).messages.warnings) << "as in rtrace";
+}
+
+TEST(ParseOptions, ListsAreWordsAsInScenes) {
+  const TemporaryFile quoted("\xef\xbb\xbf'lum light' \"it's\" a'b c'\n"), open("x\ny 'z");
+  EXPECT_EQ(parse({"rtrace", "-aE", quoted.path.c_str(), "s.oct"}).ray.ambientExcluded,
+            (Names{"lum light", "it's", "ab c"}));
+  EXPECT_EQ(parse({"rtrace", "-tI", quoted.path.c_str(), "s.oct"}).treeIncluded,
+            (Names{"lum light", "it's", "ab c"}));
+  EXPECT_EQ(parse({"rtrace", "-ab", "1", ("@" + quoted.path).c_str()}).scene,
+            (Names{"lum light", "it's", "ab c"}));
+  EXPECT_EQ(faultOfOptions({"rtrace", "-aE", open.path.c_str(), "s.oct"}),
+            open.path + ":2: unclosed quote: '");
+  EXPECT_EQ(faultOfOptions({"rtrace", ("@" + open.path).c_str()}), open.path + ":2: unclosed quote: '");
 }
 
 TEST(ParseOptions, ABoundOfMemoryIsRefusedWithAnAmbientFile) {
@@ -281,9 +332,9 @@ TEST(ParseOptions, AmbientModifiersAreOneKindOnly) {
   EXPECT_EQ(faultOfOptions({"rtrace", "-aE", "/no/file", "s.oct"}, rad::Status::system),
             "cannot open ambient exclude file \"/no/file\": No such file or directory");
   EXPECT_EQ(faultOfOptions({"rtrace", "-aI", "/tmp", "s.oct"}, rad::Status::system),
-            "cannot open ambient include file \"/tmp\": Is a directory");
+            "/tmp: cannot read: Is a directory");
   EXPECT_EQ(faultOfOptions({"rtrace", "-tE", "/dev/zero", "s.oct"}),
-            "trace exclude file \"/dev/zero\" has a word that is too long");
+            "/dev/zero:1: NUL byte: this is not scene text");
 }
 
 TEST(ParseOptions, SceneTakesTheRest) {
