@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "base/constants.h"
 #include "field/hemisphere.h"
 #include "field/tuning.h"
 #include "scene/even_sequence.h"
+#include "scene/random.h"
 
 namespace rsphere {
 namespace {
@@ -46,6 +49,9 @@ struct Patch {
   double share = 0;  // in the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
+  // Places all over the patch that gather its light: the mean of all its places is right for the light that
+  // the whole patch sends into the room, which the light at one site is not where light is uneven.
+  std::atomic<const std::vector<GatherSite>*> sites{nullptr};
   std::atomic<const PatchLinks*> links{nullptr};
   struct Light {
     std::atomic<bool> known{false};
@@ -56,7 +62,10 @@ struct Patch {
   };
   std::unique_ptr<Light[]> light;  // index: bounces - 1
 
-  ~Patch() { delete links.load(std::memory_order_relaxed); }
+  ~Patch() {
+    delete sites.load(std::memory_order_relaxed);
+    delete links.load(std::memory_order_relaxed);
+  }
 };
 
 CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options,
@@ -65,6 +74,7 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       grid_(bounds),
       room_(room),
       effort_(effortFor(options, room > 0)),
+      rotation_(options.rotation),
       bounces_(std::max(options.bounces, 1)),
       coarserLinks_(std::max(options.coarserLinks, room > 0 || options.patchesAtFirst
                                                        ? 0
@@ -97,6 +107,7 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
             first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
                         tuning::CoarseSolution::kLeastRays
                   : fewer * tuning::CoarseSolution::kLeastRays,
+            options.rays,
             share};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
@@ -106,6 +117,7 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
           0,
           tuning::CoarseSolution::kMoreRays,
           tuning::CoarseSolution::kLeastRays,
+          options.rays,
           share};
 }
 
@@ -172,7 +184,25 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
   });
 }
 
-Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, FieldRays& rays, Asker asker) {
+// Chooses the sites of a patch: places on it that its first site sees, so that none lies below or behind what
+// stands on the surface.
+void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
+  if (patch.sites.load(std::memory_order_acquire)) return;
+  auto sites = std::make_unique<std::vector<GatherSite>>();
+  Random random(mixBits(patch.seed ^ rotation_));
+  const double shift1 = random.uniform(), shift2 = random.uniform();
+  for (int k = 0; k < tuning::CoarseSolution::kSites; ++k) {
+    // Opposite places in turn, whose mean is exact where light varies linearly.
+    const Imath::V2d at = evenly(static_cast<size_t>(k / 2), shift1, shift2);
+    const auto site = chart.siteIn(grid_, key, k % 2 == 0 ? at : Imath::V2d(1, 1) - at);
+    if (site && rays.sees(patch.site.point, site->point)) sites->push_back(*site);
+  }
+  if (sites->empty()) sites->push_back(patch.site);
+  const std::vector<GatherSite>* first = nullptr;
+  if (patch.sites.compare_exchange_strong(first, sites.get(), std::memory_order_acq_rel)) sites.release();
+}
+
+Patch* CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return nullptr;
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
@@ -188,27 +218,32 @@ Patch* CoarseSolution::find(const SurfacePlace& place, double u1, double u2, Fie
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
     chart->divideAcross(tuning::CoarseSolution::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
-  const auto serves = [&](const Patch& patch) { return patch.usable && rays.sees(patch.site.point, above); };
-  {
-    const double u = chart->u() + (u1 - .5) * chart->stepU(grid_, level),
-                 v = chart->v() + (u2 - .5) * chart->stepV(grid_, level);
-    Patch& patch = patchOf(*chart, chart->cellAt(grid_, level, u, v), rays);
-    if (serves(patch)) return &patch;
-  }
-  const int most = division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels;
-  for (int tried = level; tried <= std::min(level + tuning::Fields::kFinerWhereHidden, most); ++tried) {
-    Patch& patch = patchOf(*chart, chart->cellAt(grid_, tried, chart->u(), chart->v()), rays);
-    if (serves(patch)) return &patch;
+  const int most = std::min(level + tuning::Fields::kFinerWhereHidden,
+                            division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels);
+  for (int tried = level; tried <= most; ++tried) {
+    const CellKey key = chart->cellAt(grid_, tried, chart->u(), chart->v());
+    Patch& patch = patchOf(*chart, key, rays);
+    if (!patch.usable || !rays.sees(patch.site.point, above)) continue;
+    // The rays that hit a near patch share its noise. If they are more than its own rays, paths have less.
+    const double hits = effort_.asked * chart->stepU(grid_, tried) * chart->stepV(grid_, tried) /
+                        (kPi * place.distance * place.distance);
+    if (asker == Asker::path && hits > raysOf(patch)) return nullptr;
+    spread(patch, *chart, key, rays);
+    return &patch;
   }
   return nullptr;
 }
 
+// Patches with a larger share in the light of others get more rays, because their noise matters more.
+double CoarseSolution::raysOf(const Patch& patch) const {
+  const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
+  return std::clamp(effort_.usual * part, effort_.least, kMostRays);
+}
+
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
-  // Patches with a larger share in the light of others get more rays, because their noise matters more.
-  const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
-  const double count = std::clamp(effort_.usual * part, effort_.least, kMostRays);
-  auto made = std::make_unique<PatchLinks>(rays.link(patch.site, static_cast<int>(count), patch.seed));
+  auto made = std::make_unique<PatchLinks>(
+      rays.link(*patch.sites.load(std::memory_order_acquire), static_cast<int>(raysOf(patch)), patch.seed));
   const PatchLinks* first = nullptr;
   if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;
   linked_.fetch_add(1, std::memory_order_relaxed);

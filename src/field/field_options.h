@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "base/radiometry.h"
 
 namespace rsphere {
@@ -17,6 +19,7 @@ struct FieldOptions {
   bool patchesAtFirst = false;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands
+  uint64_t rotation = 0;  // changes the random numbers of patches
   double memory = 0;      // -Sm  MB for the irradiance cache; 0: no limit
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // The rays that the irradiance cache and the coarse solution request. This folder traces no rays itself.
 #include <cstdint>
+#include <span>
 
 #include "field/hemisphere.h"
 #include "field/patch_links.h"
@@ -12,8 +13,8 @@ class FieldRays {
  public:
   // The indirect light at a site, estimated with -ad + -as rays. nearest: as in HemisphereCells::sum().
   virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
-  // Links of a patch from about `rays` rays over the hemisphere of its site.
-  virtual PatchLinks link(const GatherSite& site, int rays, uint64_t seed) = 0;
+  // Links of a patch from about `rays` rays over the hemispheres of its sites, which take turns.
+  virtual PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t seed) = 0;
   // The distance to the first surface above the site along its normal, at most `farthest` (world units).
   virtual double clearance(const GatherSite& site, double farthest) = 0;
   // The distances of the surfaces around a site, estimated from a few directions.

@@ -271,15 +271,18 @@ std::optional<GatherSite> SurfaceChart::siteWithin(const CellGrid& grid, const I
   return siteAt(grid, shares.x * width_, shares.y * height_);
 }
 
+std::optional<GatherSite> SurfaceChart::siteIn(const CellGrid& grid, const CellKey& key,
+                                               const Imath::V2d& shares) const {
+  return siteAt(grid, (static_cast<double>(key.i) + shares.x) * stepU(grid, key.level),
+                (static_cast<double>(key.j) + shares.y) * stepV(grid, key.level));
+}
+
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
-  const double du = stepU(grid, key.level), dv = stepV(grid, key.level);
   for (int c = 0; c < kCandidates; ++c) {
     // The first candidate is slightly off the middle. If it lay in the plane of a wall, which often stands in
     // the exact middle of a floor, the wall would not occlude it.
     const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
-    if (auto site =
-            siteAt(grid, (static_cast<double>(key.i) + in.x) * du, (static_cast<double>(key.j) + in.y) * dv))
-      return site;
+    if (auto site = siteIn(grid, key, in)) return site;
   }
   return {};
 }

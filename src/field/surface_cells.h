@@ -84,6 +84,9 @@ class SurfaceChart {
   CellKey cellAt(const CellGrid& grid, int level, double u, double v) const;
   // The cell with these indices; outside of the surface, the nearest cell.
   CellKey cell(const CellGrid& grid, int level, int64_t i, int64_t j) const;
+  // A site at a relative position in a cell, from 0 to 1 in each coordinate, just above the surface. Empty if
+  // that point does not lie on the surface.
+  std::optional<GatherSite> siteIn(const CellGrid& grid, const CellKey& key, const Imath::V2d& shares) const;
   // The site of a cell, just above the surface. Empty if none of the points tried in the cell lies on the
   // surface.
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;

@@ -101,7 +101,9 @@ struct CoarseSolution {
   static constexpr double kNearAtFirst = .5, kFarPatchAtFirst = .09, kUsualShareAtFirst = .008;
   // Lower bound on the side of a patch, relative to its surface's extent. Without it, patches in a corner,
   // where everything is near, would be divided without end. Measured together with kSpacing. With .02, the
-  // time is three times as long.
+  // time is three times as long. In proportion to -aa, sensors below north lights have .8 instead of .9% of
+  // error at -aa .05, but daylit rooms take 1.2 to 1.5 times the time
+  // (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .05);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without daylight openings. Measured in RADIANCE's
   // office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). With 1, pictures take a third more time
@@ -159,6 +161,11 @@ struct CoarseSolution {
   // sensors in a sunlit classroom at -aa .05 is .65%. Patches do not become smaller either beyond this
   // growth.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
+  // Number of places on a patch that send its rays in turn; even, for places in opposite pairs. Measured with
+  // sensors in four daylit rooms: 4 to 16 give the same errors. With 1, in the middle, sensors below north
+  // lights are 4% too bright, because a ceiling's light grows ever faster towards the glass
+  // (tests/bench/rtrace/runs/2026-11-28-patches.txt).
+  static constexpr int kSites = 4;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
 };

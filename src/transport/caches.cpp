@@ -23,7 +23,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{7});  // increase this if gathering changes while kVersion stays the same
+  print.add(uint64_t{8});  // increase this if gathering changes while kVersion stays the same
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
@@ -54,8 +54,8 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 FieldOptions fieldOptions(const RayOptions& o) {
   FieldOptions field;
   // Names all members, so that adding one makes this fail to compile.
-  auto& [bounces, accuracy, resolution, rays, coarserLinks, patchesAtFirst, ambientValue, spectral, memory] =
-      field;
+  auto& [bounces, accuracy, resolution, rays, coarserLinks, patchesAtFirst, ambientValue, spectral, rotation,
+         memory] = field;
   bounces = o.ambientBounces;
   accuracy = o.ambientAccuracy;
   resolution = o.ambientResolution;
@@ -64,6 +64,7 @@ FieldOptions fieldOptions(const RayOptions& o) {
   patchesAtFirst = o.leastForPatches > 0;
   ambientValue = o.ambientValue;
   spectral = o.sampling != nullptr;
+  rotation = rotationBits(o);
   memory = o.fieldMemory;
   return field;
 }

@@ -46,8 +46,9 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);
   const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, count);
-  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, count,
-                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient,
+                     DirectionSet(count, path.state.random), Coefficient(1), Coefficient(kMeanReflectance),
+                     [&](const NextRay& next) {
                        countDescendants(path.settings, path.state, next.context);
                        const RayResult seen = path.follower.follow(next.query, next.context);
                        const int cell = cells.cellOf(next.query.direction, x, y, site.normal);
@@ -58,19 +59,25 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
 }
 
 // IndirectLight::link() adds the light and the links beyond the first hits.
-PatchLinks TracedFieldRays::link(const GatherSite& site, int rays, uint64_t seed) {
-  const InnerPath path = path_.beginGather(seed, site.normal);
+PatchLinks TracedFieldRays::link(std::span<const GatherSite> sites, int rays, uint64_t seed) {
+  const InnerPath path = path_.beginGather(seed, sites.front().normal);
   PatchLinks links;
   path.state.links = &links;
   path.state.descendants = descendantsOfPatch(rays, depth_);
   Radiance sum;
-  const Root root(t_, site, depth_);
-  const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
-  sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, rays,
-                     Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
-                       countDescendants(path.settings, path.state, next.context);
-                       sum += path.follower.follow(next.query, next.context).value * next.coefficient;
-                     });
+  // One set of directions for all sites: each has some of them, as far apart as possible.
+  DirectionSet set(rays, path.state.random);
+  set.step = std::min(static_cast<int>(sites.size()), rays);
+  for (; set.first < set.step; ++set.first) {
+    const GatherSite& site = sites[static_cast<size_t>(set.first)];
+    const Root root(t_, site, depth_);
+    const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
+    sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, set,
+                       Coefficient(1), Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                         countDescendants(path.settings, path.state, next.context);
+                         sum += path.follower.follow(next.query, next.context).value * next.coefficient;
+                       });
+  }
   links.addLight(0, sum);
   links.rays = path.state.descendants.rays;
   return links;

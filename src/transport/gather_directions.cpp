@@ -67,10 +67,11 @@ double GatherDirections::density(const V3d& direction) const {
   return unaimed() + aimed * kPi / direction.dot(normal_);
 }
 
-void GatherDirections::draw(int count, Random& random, Each each) const {
+void GatherDirections::draw(const DirectionSet& set, Each each) const {
   constexpr double kGolden = .6180339887498949;
-  const double shift1 = random.uniform(), shift2 = random.uniform(), shift3 = random.uniform();
-  for (int i = 0; i < count; ++i) {
+  const auto& [count, shifts, first, step] = set;
+  const auto [shift1, shift2, shift3] = shifts;
+  for (int i = first; i < count; i += step) {
     // Systematic sampling: directions of the same kind are consecutive, and the number of each kind differs
     // from its expected value by less than 1. Within each kind, u is evenly spaced between 0 and 1.
     double u = (i + shift1) / count;
@@ -97,10 +98,10 @@ void GatherDirections::draw(int count, Random& random, Each each) const {
 }
 
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
-                        const RayEnd& root, const V3d& point, RayKind kind, int rays,
+                        const RayEnd& root, const V3d& point, RayKind kind, const DirectionSet& set,
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
   const Coefficient arriving = root.context.contribution * passedBy(root);
-  directions.draw(rays, state.random, [&](const V3d& direction, double part) {
+  directions.draw(set, [&](const V3d& direction, double part) {
     NextRay next(root, kind, weight);
     if (!goesOnAlong(next, prepared, state)) return;
     next.query.origin = point;

@@ -4,6 +4,8 @@
 // cylinders. Each is weighted by the density of the whole mixture in its direction (multiple importance
 // sampling with the balance heuristic).
 
+#include <array>
+
 #include "scene/random.h"
 #include "transport/aims.h"
 #include "transport/function_ref.h"
@@ -13,6 +15,16 @@
 #include "transport/ray.h"
 
 namespace rsphere {
+
+// A set of evenly distributed directions, in a random position, or every `step`-th of them.
+struct DirectionSet {
+  int count;  // of the whole set
+  std::array<double, 3> shifts;
+  int first = 0, step = 1;
+
+  DirectionSet(int count, Random& random)
+      : count(count), shifts{random.uniform(), random.uniform(), random.uniform()} {}
+};
 
 class GatherDirections {
  public:
@@ -24,10 +36,11 @@ class GatherDirections {
   // Called for each direction (unit). part: its weight in the mean over the hemisphere.
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
-  // Draws `count` directions. Their parts sum to 1 on average if the hemisphere lies in front of the surface.
+  // Draws the directions of a set. The parts of a whole set sum to 1 on average if the hemisphere lies in
+  // front of the surface.
   // Leaves out directions behind the surface, and directions that miss the highlight at which they were
   // aimed.
-  void draw(int count, Random& random, Each each) const;
+  void draw(const DirectionSet& set, Each each) const;
 
  private:
   double density(const V3d& direction) const;
@@ -49,7 +62,7 @@ using GatherRay = FunctionRef<void(const NextRay& next)>;
 // is compared with the weight limit (-lw). It is the same for aimed and other directions, although the
 // coefficients of aimed ones are smaller.
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
-                        const RayEnd& root, const V3d& point, RayKind kind, int rays,
+                        const RayEnd& root, const V3d& point, RayKind kind, const DirectionSet& set,
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each);
 
 }  // namespace rsphere

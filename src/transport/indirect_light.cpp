@@ -97,8 +97,9 @@ struct Gather {
     const GatherDirections directions(aims, side.point, side.normal, side.trueNormal, rays);
     const Coefficient weight =
         settings.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / weighedAs;
-    sendOverHemisphere(prepared, directions, state, end, side.point, side.kind, rays,
-                       side.coefficient * share, weight, [&](const NextRay& next) {
+    sendOverHemisphere(prepared, directions, state, end, side.point, side.kind,
+                       DirectionSet(rays, state.random), side.coefficient * share, weight,
+                       [&](const NextRay& next) {
                          if (next.context.ambientLevel == 1) countDescendants(settings, state, next.context);
                          found(follower.follow(next.query, next.context).value * next.coefficient);
                        });
@@ -219,14 +220,12 @@ bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Rad
   return true;
 }
 
-// The patch of the coarse solution that gives the light of a side, randomly selected from those around it;
-// null if there is none.
+// The patch of the coarse solution that gives the light of a side; null if there is none.
 Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
-  const double u1 = state_.random.uniform(), u2 = state_.random.uniform();
   if (!isOrdinary(end, side, t_.options().medium())) return nullptr;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   const auto asker = state_.links ? CoarseSolution::Asker::patch : CoarseSolution::Asker::path;
-  return settings_.caches.coarse->find(placeOf(end, side), u1, u2, rays, asker);
+  return settings_.caches.coarse->find(placeOf(end, side), rays, asker);
 }
 
 void IndirectLight::endPath() {
@@ -302,8 +301,8 @@ void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
   links.addEnd(level - 1, whole);
   if (isLast) return;
   const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, 1);
-  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, 1, side.coefficient,
-                     Coefficient(kMeanReflectance), [&](const NextRay& next) {
+  sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, DirectionSet(1, state_.random),
+                     side.coefficient, Coefficient(kMeanReflectance), [&](const NextRay& next) {
                        const Radiance found = follower_.follow(next.query, next.context).value;
                        links.addLight(level, found * next.context.contribution);
                      });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "field/tuning.h"
@@ -36,23 +37,23 @@ class FurnaceRays final : public FieldRays {
             hit.surface, nullptr, hit.distance};
   }
 
-  PatchLinks link(const GatherSite& site, int rays, uint64_t seed) override {
+  PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t seed) override {
     PatchLinks links;
     ++linked;
     raysOfLast = rays;
     Random random(seed);
     for (int i = 0; i < rays; ++i) {
       double coefficient = 1. / rays;
+      const GatherSite& site = sites[static_cast<size_t>(i) % sites.size()];
       V3d from = site.point, normal = site.normal;
       for (int beyond = 0; beyond < bounces_; ++beyond) {
         const double u1 = random.uniform(), u2 = random.uniform();
         const SurfacePlace place = placeAlong(from, diffuseDirection(normal, u1, u2));
         links.addLight(beyond, Radiance(coefficient * shine_(place)));
         coefficient *= kReflectance;
-        const double v1 = random.uniform(), v2 = random.uniform();
         // Some paths are continued, as if there were no patch.
         const bool goesOn = random.uniform() < .3;
-        Patch* const patch = solution_->find(place, v1, v2, *this);
+        Patch* const patch = solution_->find(place, *this, CoarseSolution::Asker::patch);
         if (patch && !goesOn) {
           links.links.push_back({patch, V3f(1, 1, 1) * static_cast<float>(coefficient), beyond});
           ++served;
@@ -111,11 +112,10 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   for (int i = 0; i < 12; ++i) {
     const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
     const SurfacePlace place = rays.placeAlong(from, randomDirection(random));
-    const double u1 = random.uniform(), u2 = random.uniform();
-    Patch* const patch = solution.find(place, u1, u2, rays);
+    Patch* const patch = solution.find(place, rays);
     if (!patch) continue;
     ++found;
-    EXPECT_EQ(solution.find(place, u1, u2, rays), patch) << "the same again";
+    EXPECT_EQ(solution.find(place, rays), patch) << "the same again";
     for (int bounces = kBounces; bounces >= 0; --bounces) {
       double expected = std::pow(kReflectance, bounces) * kAmbient;
       for (int n = 0; n < bounces; ++n) expected += std::pow(kReflectance, n);
@@ -140,7 +140,7 @@ int raysOfPatch(const Traced& box, const RayOptions& options, double room, doubl
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
   rays.solve(solution);
   const SurfacePlace place = rays.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
-  Patch* const patch = solution.find(place, .5, .5, rays);
+  Patch* const patch = solution.find(place, rays, CoarseSolution::Asker::patch);
   if (patch) solution.light(*patch, 1, rays);
   return rays.raysOfLast;
 }
@@ -194,8 +194,7 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
     const V3d to(dark ? between(random, 1.031, 1.5) : between(random, .6, 1.029), between(random, .1, 2.9),
                  i % 3 ? 0 : 2.5);
     const SurfacePlace place = rays.placeAlong(from, (to - from).normalized());
-    const double u1 = random.uniform(), u2 = random.uniform();
-    Patch* const patch = solution.find(place, u1, u2, rays);
+    Patch* const patch = solution.find(place, rays);
     if (!patch) continue;
     ++found[dark];
     const double light = solution.light(*patch, kBounces, rays).x;
@@ -208,6 +207,79 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   EXPECT_GT(found[1], 10) << "or nothing is told";
 }
 
+// The patches of a square below a ceiling whose light grows ever faster towards one side: the mean of what
+// they send into the room is that of the square. With the light at their middles, it would be too dark.
+TEST(CoarseSolution, PatchesSendTheLightOfTheirWholeArea) {
+  // The light of a place is the sum over the rays of its patch, here that of the patch's sites themselves.
+  struct SiteRays final : FieldRays {
+    static double at(double x) { return std::exp(12 * x); }
+    PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t) override {
+      PatchLinks links;
+      sitesOfLast = sites.size();
+      links.rays = rays;
+      for (const GatherSite& site : sites)
+        links.addLight(0, Radiance(at(site.point.x) / static_cast<double>(sites.size())));
+      return links;
+    }
+    GatheredLight gather(const GatherSite&, double, uint64_t) override { return {}; }
+    double clearance(const GatherSite&, double farthest) override { return farthest; }
+    bool smallObjectNear(const GatherSite&, double, double) override { return false; }
+    Surroundings surroundings(const GatherSite&) override { return {1, 1, 1}; }
+    bool sees(const V3d&, const V3d& to) override { return to.x < dark; }
+    double dark = 2;  // what lies beyond is hidden
+    size_t sitesOfLast = 0;
+  } rays;
+  const Traced square(
+      "void plastic gray 0 0 5 .6 .6 .6 0 0\ngray polygon p 0 0 12 0 0 0 1 0 0 1 1 0 0 1 0\n");
+  RayOptions options = optionsOf(1);
+  options.ambientAccuracy = .1;
+  const auto meanOver = [&](double end, double* atMiddles) {
+    CoarseSolution solution(square.scene(), square.prepared().tracer().bounds(), fieldOptions(options), 1);
+    constexpr int kPlaces = 400;
+    double sum = 0;
+    std::set<const Patch*> patches;
+    for (int i = 0; i < kPlaces; ++i) {
+      const SurfacePlace place{V3d(end * (i + .5) / kPlaces, (i % 20 + .5) / 20, 0), V3d(0, 0, 1),
+                               SurfaceId(0), nullptr, 100};
+      Patch* const patch = solution.find(place, rays);
+      EXPECT_TRUE(patch);
+      if (!patch) continue;
+      sum += solution.light(*patch, 1, rays).x / kPlaces;
+      patches.insert(patch);
+    }
+    if (atMiddles) {
+      const auto across = static_cast<int>(std::lround(std::sqrt(static_cast<double>(patches.size()))));
+      *atMiddles = 0;
+      for (int i = 0; i < across; ++i) *atMiddles += SiteRays::at((i + .5) / across) / across;
+    }
+    return sum;
+  };
+  const double whole = (std::exp(12) - 1) / 12;
+  double atMiddles = 0;
+  EXPECT_NEAR(meanOver(1, &atMiddles), whole, .003 * whole);
+  EXPECT_GT(whole - atMiddles, .01 * whole) << "or the middle would do";
+  // What something hides on the square does not make the places beside it dark.
+  rays.dark = .8;
+  EXPECT_GE(meanOver(.1, nullptr), 1);
+  EXPECT_GT(rays.sitesOfLast, 1u);
+}
+
+// The rays of a gather that hit a patch share its noise. Where they are more than its own rays, paths are
+// followed instead: a sensor is not noisier than without patches.
+TEST(CoarseSolution, NoPatchServesMoreRaysThanItHas) {
+  const Traced box(kBox);
+  FurnaceRays rays(box.prepared().tracer(), 2, [](const SurfacePlace&) { return 1; });
+  RayOptions options = optionsOf(2);
+  options.ambientDivisions = 4096;
+  const SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, .9};
+  for (const double room : {1., 1e3}) {  // the patches of a large room have few rays
+    CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
+    rays.solve(solution);
+    EXPECT_EQ(solution.find(place, rays) != nullptr, room == 1) << room;
+    EXPECT_TRUE(solution.find(place, rays, CoarseSolution::Asker::patch)) << "its noise averages out";
+  }
+}
+
 // The path of a ray from nearby is followed instead, because patches would be visible there.
 TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   const Traced box(kBox);
@@ -215,9 +287,9 @@ TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
   rays.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
-  EXPECT_TRUE(solution.find(place, .5, .5, rays));
+  EXPECT_TRUE(solution.find(place, rays));
   place.distance = 1e-3;
-  EXPECT_FALSE(solution.find(place, .5, .5, rays));
+  EXPECT_FALSE(solution.find(place, rays));
 }
 
 // Otherwise patches would not follow the light in narrow gaps.
@@ -233,7 +305,7 @@ TEST(CoarseSolution, PatchesSeenFromNearbyAreNarrow) {
     std::set<const Patch*> patches;
     for (double x = 0; x < kLength; x += .01)
       patches.insert(
-          solution.find({V3d(1 + x, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, distance}, .5, .5, rays));
+          solution.find({V3d(1 + x, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, distance}, rays));
     return patches.size();
   };
   const double least = kLength / (tuning::CoarseSolution::kNear * kDistance);

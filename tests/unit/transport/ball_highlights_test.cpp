@@ -165,7 +165,7 @@ TEST(BallHighlights, LeaveNoDirectionsOut) {
     for (int i = 0; i < 100000 / count; ++i) {
       double parts = 0;
       int there = 0;
-      directions.draw(count, random, [&](const V3d& direction, double part) {
+      directions.draw({count, random}, [&](const V3d& direction, double part) {
         parts += part;
         there += aims.highlights->density(aim, direction) > 0;
       });

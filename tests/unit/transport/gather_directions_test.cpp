@@ -28,7 +28,7 @@ TEST(GatherDirections, FewLeaveNoneOut) {
     Sample sum;
     for (int i = 0; i < 60000 / count; ++i) {
       double parts = 0;
-      directions.draw(count, random, [&](const V3d&, double part) { parts += part; });
+      directions.draw({count, random}, [&](const V3d&, double part) { parts += part; });
       sum.add(parts);
     }
     expectMean(sum, 1, 1.05);
@@ -40,7 +40,7 @@ bool areAimed(const GatherDirections& directions) {
   constexpr int kCount = 256;
   Random random(1);
   bool aimed = false;
-  directions.draw(kCount, random,
+  directions.draw({kCount, random},
                   [&](const V3d&, double part) { aimed |= std::abs(part * kCount - 1) > 1e-9; });
   return aimed;
 }
@@ -76,7 +76,7 @@ TEST(GatherDirections, AreAimedAtImagesOfOpenings) {
     Sample light;
     for (int i = 0; i < n; ++i) {
       double found = 0, all = 0;
-      directions.draw(8, random, [&](const V3d& direction, double part) {
+      directions.draw({8, random}, [&](const V3d& direction, double part) {
         const double seen = tracer.trace(east, direction, 0, 1).value.color.y;
         found += part * (seen > .85 && seen < .95);  // the sky has 1, and .9 in the mirror
         all += part;
@@ -109,7 +109,7 @@ TEST(GatherDirections, AreNotAimedWhereNothingIsSeen) {
   const GatherDirections directions(aims, floor, -up, -up, 64);
   Random random(1);
   double parts = 0;
-  directions.draw(64, random, [&](const V3d&, double part) { parts += part; });
+  directions.draw({64, random}, [&](const V3d&, double part) { parts += part; });
   EXPECT_NEAR(parts, 1, 1e-12);
 }
 
