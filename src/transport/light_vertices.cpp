@@ -204,7 +204,7 @@ bool LightVertices::Path::entersAgain(const Hit& hit) const {
 
 void LightVertices::Path::leaveSky(double where) {
   const SkyEmission::Leaving way =
-      all_.starts_.onPortals.leave(where, prepared_.options().ambientBounces - 1, random_, *outdoors_);
+      all_.starts_.onPortals.leave(where, prepared_.options().ambientBounces, random_, *outdoors_);
   beam_.origin = way.origin;
   beam_.direction = way.direction;
   beam_.power = way.power;

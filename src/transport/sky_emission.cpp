@@ -24,10 +24,11 @@ SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, 
   way.origin = portal->at(u, v) + .5 * portals_.lift() * portal->normal;
   way.direction = sentFrom(portal->normal, random);
   if (most < 1) return way;
-  // A path from the eye reaches the portal after two bounces: at the first surface that the light path will
-  // hit, and before that at a surface that is lit by it.
+  // If a mirror or a highlight throws the light onto a surface in view, a path from the eye reaches the
+  // portal after one bounce. Otherwise it has two: at the first surface that the light path will hit, and
+  // before that at a surface that is lit by it. LightVertices leaves out what then exceeds the limit.
   std::vector<Radiance> parts;
-  outdoors(portal->at(u, v), -way.direction, 2, random, parts);
+  outdoors(portal->at(u, v), -way.direction, 1, random, parts);
   double all = 0;
   for (const Radiance& part : parts) all += std::max(0., brightness(part));
   double left = random.uniform() * all;

@@ -91,6 +91,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "void metal steel 0 0 5 .8 .8 .8 .9 .02\n"
                 "steel polygon shelf 0 0 12 1 .05 .95 3 .05 .95 3 .4 .95 1 .4 .95\n",
             2, V3d(2.4, 1.7, 1.1), 1.2},
+        // The mirror throws skylight onto what the point sees.
+        Way{"MirrorWithOneBounce",
+            kRoom + kPane + kSky +
+                "void mirror silver 0 0 3 .9 .9 .9\n"
+                "silver polygon m 0 0 12 .2 3.9 .2 3.8 3.9 .2 3.8 3.9 2.8 .2 3.9 2.8\n",
+            1},
         Way{"ChromeBall",
             kRoom + kPane + kSky + kSun +
                 "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 1.5 2.5 1.2 .4\n"}),
