@@ -100,9 +100,9 @@ PictureFormat pictureFormat(const std::string& name) {
   if (!imageCodec().formatOf(name, format).empty())
     cannotWrite(name,
                 "its suffix is that of no picture format; usual ones are .hdr, .exr, .tif, .png and .jpg");
-  return format == "hdr"                           ? PictureFormat::radiance
-         : format == "openexr" || format == "tiff" ? PictureFormat::linear
-                                                   : PictureFormat::screen;
+  if (format == "hdr") return PictureFormat::radiance;
+  const bool linear = format == "openexr" || format == "tiff" || name.ends_with(".pfm");
+  return linear ? PictureFormat::linear : PictureFormat::screen;
 }
 
 PictureFile::PictureFile(std::string name) : name_(std::move(name)), format_(pictureFormat(name_)) {

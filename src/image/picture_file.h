@@ -10,7 +10,7 @@ namespace rsphere {
 // Formats by the values that they store.
 enum class PictureFormat {
   radiance,  // RADIANCE's format (HDR): radiance, with the view in its header
-  linear,    // EXR and TIFF: radiance
+  linear,    // EXR, TIFF and PFM: radiance
   screen     // PNG, JPEG and all others: screen colours
 };
 
