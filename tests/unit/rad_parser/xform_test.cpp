@@ -253,8 +253,8 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
   const TestFolder folder;
   folder.write("p.rad", kTriangle);
   const auto fault = [&](std::string_view arguments) {
-    return errorOfText(
-        fmt::format("\n!xform {}\n", fmt::vformat(arguments, fmt::make_format_args(folder.path("p.rad")))));
+    const std::string file = folder.path("p.rad");
+    return errorOfText(fmt::format("\n!xform {}\n", fmt::vformat(arguments, fmt::make_format_args(file))));
   };
   EXPECT_EQ(fault("-t 1 0 {0}"), "room.rad:2: xform: bad option or argument at \"-t\"");
   EXPECT_EQ(fault("-s 0 {0}"), "room.rad:2: xform: bad option or argument at \"-s\"");
