@@ -488,7 +488,7 @@ class Page(unittest.TestCase):
             os.chdir(folder)
             try:
                 shutil.copy(ROOM, "room.rad")
-                np.savetxt("grid.pts", rays, fmt="%r")
+                np.savetxt("grid.pts", rays, fmt="%s")
                 names = {}
                 exec(programs[0], names)  # pylint: disable=exec-used
                 self.assertEqual(printed.getvalue().count("["), 8)
