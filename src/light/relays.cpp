@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -205,7 +204,8 @@ class Images {
     std::vector<Reached> reached = relaysReached(source, way);
     if (reached.empty()) return;
     const auto passages = std::make_shared<const Way>(Way{std::move(way.passages), {}});
-    for (const Reached& r : reached | std::views::reverse)
+    std::reverse(reached.begin(), reached.end());
+    for (const Reached& r : reached)
       for (int image = imagesBy(relays_[r.relay]); image-- > 0;)
         pending.push_back({source, passages, r, image, relays});
   }
