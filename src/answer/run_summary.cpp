@@ -30,8 +30,8 @@ bool isFarAway(const V3d& point, const Box3d& scene) {
   return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
 }
 
-// Whether all surfaces are lamps or goals: points of photometry are far away from a bare lamp.
-bool shinesAlone(const Scene& scene) {
+// Whether all surfaces are light sources or goals. Photometry of a bare lamp has points far away from it.
+bool hasSourcesAlone(const Scene& scene) {
   const SurfaceList::Beginning surfaces = scene.outermost();
   return std::none_of(surfaces.begin(), surfaces.end(),
                       [&](const Surface& surface) { return isBlack(sourceRadiance(scene, surface)); });
@@ -92,7 +92,7 @@ std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
         "{}, and whether they lie inside of something{}",
         importance ? "importance" : "light", unlit_.records, records_, places, unlit_.worst + 1, places,
         importance ? ", or behind the goals, which emit from their front" : ""));
-  if (far_.records > 0 && !shinesAlone(prepared.scene())) {
+  if (far_.records > 0 && !hasSourcesAlone(prepared.scene())) {
     const Box3d& box = prepared.tracer().bounds();
     texts.push_back(fmt::format(
         "{} of {} {} are far away from the scene, which reaches from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} "

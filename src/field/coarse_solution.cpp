@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
@@ -32,6 +33,15 @@ bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
          seen.rootMeanSquare < tuning::CoarseSolution::kEnclosed * chart.extent();
 }
 
+// Publishes what a thread has made, unless another thread was first. Returns whether it was kept.
+template <class T>
+bool publish(std::atomic<const T*>& slot, std::unique_ptr<const T> made) {
+  const T* first = nullptr;
+  if (!slot.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return false;
+  made.release();
+  return true;
+}
+
 }  // namespace
 
 // How a part of a surface is divided into patches.
@@ -49,8 +59,7 @@ struct Patch {
   double share = 0;  // in the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
-  // Places all over the patch that gather its light: the mean of all its places is right for the light that
-  // the whole patch sends into the room, which the light at one site is not where light is uneven.
+  // Places all over the patch, whose mean light stands for all of it; set by spread().
   std::atomic<const std::vector<GatherSite>*> sites{nullptr};
   std::atomic<const PatchLinks*> links{nullptr};
   struct Light {
@@ -198,8 +207,7 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
     if (site && rays.sees(patch.site.point, site->point)) sites->push_back(*site);
   }
   if (sites->empty()) sites->push_back(patch.site);
-  const std::vector<GatherSite>* first = nullptr;
-  if (patch.sites.compare_exchange_strong(first, sites.get(), std::memory_order_acq_rel)) sites.release();
+  publish<std::vector<GatherSite>>(patch.sites, std::move(sites));
 }
 
 Patch* CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker) {
@@ -224,7 +232,8 @@ Patch* CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker as
     const CellKey key = chart->cellAt(grid_, tried, chart->u(), chart->v());
     Patch& patch = patchOf(*chart, key, rays);
     if (!patch.usable || !rays.sees(patch.site.point, above)) continue;
-    // The rays that hit a near patch share its noise. If they are more than its own rays, paths have less.
+    // All rays of a gather that hit a patch share its noise. If they outnumber the rays of the patch,
+    // following them is less noisy.
     const double hits = effort_.asked * chart->stepU(grid_, tried) * chart->stepV(grid_, tried) /
                         (kPi * place.distance * place.distance);
     if (asker == Asker::path && hits > raysOf(patch)) return nullptr;
@@ -242,13 +251,14 @@ double CoarseSolution::raysOf(const Patch& patch) const {
 
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
-  auto made = std::make_unique<PatchLinks>(
+  auto made = std::make_unique<const PatchLinks>(
       rays.link(*patch.sites.load(std::memory_order_acquire), static_cast<int>(raysOf(patch)), patch.seed));
-  const PatchLinks* first = nullptr;
-  if (!patch.links.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return *first;
-  linked_.fetch_add(1, std::memory_order_relaxed);
-  rays_.fetch_add(static_cast<size_t>(made->rays), std::memory_order_relaxed);
-  return *made.release();
+  const auto sent = static_cast<size_t>(made->rays);
+  if (publish<PatchLinks>(patch.links, std::move(made))) {
+    linked_.fetch_add(1, std::memory_order_relaxed);
+    rays_.fetch_add(sent, std::memory_order_relaxed);
+  }
+  return *patch.links.load(std::memory_order_acquire);
 }
 
 Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
@@ -282,11 +292,7 @@ Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
   }
   for (int c = 0; c < 3; ++c) kept.mean[c].store(sum[c], std::memory_order_relaxed);
   const Bands bands = bandsBeside(sum, inBands);
-  if (bands) {
-    const Bands* first = nullptr;
-    auto made = std::make_unique<const Bands>(bands);
-    if (kept.bands.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) made.release();
-  }
+  if (bands) publish<Bands>(kept.bands, std::make_unique<const Bands>(bands));
   kept.known.store(true, std::memory_order_release);
   return Color(V3d(sum), bands);
 }

@@ -20,9 +20,10 @@
 // strip of ceiling sends, compared with a fine grid of sensors on it, shows this at once. What remains is the
 // product of two gradients across a patch, of its light and of the solid angle that it is seen with.
 //
-// What keeps sensors free of shared noise: near patches, which many rays of one gather hit, serve it only if
-// they have at least as many rays of their own. Outdoors, patches of the ground have 8 rays; a sensor close
-// above it had 25% of noise from run to run, where paths have 4%. Repeats with another -Sr show it at once.
+// What keeps sensors free of shared noise: a patch serves a gather only if it has sent at least as many rays
+// as the gather sends to it, which only matters for near patches. Outdoors, patches of the ground have 8
+// rays; a sensor close above it had 25% of noise from run to run, where paths have 4%. Repeats with another
+// -Sr show it at once.
 //
 // Threads: any number may query at the same time, and none waits. If two threads need the same patch at the
 // same time, both may link it; the links are identical, and the first are kept. An answer depends only on the
@@ -79,7 +80,7 @@ class CoarseSolution {
     double usual;        // rays of a patch with usualShare in the light of others
     double fewer, more;  // bounds on the factor for other shares
     double least;        // lower bound on the rays of a patch
-    double asked;        // rays of the gathers and points that look patches up
+    double asked;        // rays of a gather that looks patches up
     double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);

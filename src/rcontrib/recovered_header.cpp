@@ -50,10 +50,10 @@ std::vector<std::string> commandIn(const std::vector<std::string>& header) {
   return words;
 }
 
-// The option in the first line of a that b lacks; empty if there is none.
-std::string_view optionMissingIn(const std::vector<std::string>& b, const std::vector<std::string>& a) {
-  for (const std::string& line : a)
-    if (std::find(b.begin(), b.end(), line) == b.end())
+// The option, without its remark, in the first of the lines that is not among the others; empty if all are.
+std::string_view firstMissing(const std::vector<std::string>& lines, const std::vector<std::string>& others) {
+  for (const std::string& line : lines)
+    if (std::find(others.begin(), others.end(), line) == others.end())
       return std::string_view(line).substr(0, line.find_last_not_of(" \t", line.find('#') - 1) + 1);
   return "";
 }
@@ -63,8 +63,7 @@ void requireSameCommand(const std::string& file, std::vector<std::string> words,
                         const ContributionOptions& options) {
   if (words.empty()) refuse(file, "its header has no command line of rcontrib");
   // The command line lacks the scene if that is an octree; without one it could not be parsed.
-  const std::string kOctree = "octree";
-  words.push_back(kOctree);
+  words.emplace_back("octree");
   ContributionOptions other;
   try {
     parseCompanion(words, contributionCompanion(), other);
@@ -85,7 +84,7 @@ void requireSameCommand(const std::string& file, std::vector<std::string> words,
   ContributionOptions own = options;
   const auto before = linesOf(companionDefaults(contributionCompanion(), other)),
              now = linesOf(companionDefaults(contributionCompanion(), own));
-  const std::string_view was = optionMissingIn(now, before), is = optionMissingIn(before, now);
+  const std::string_view was = firstMissing(before, now), is = firstMissing(now, before);
   if (!was.empty() || !is.empty())
     refuse(file, fmt::format("it was made with {}, not with {}", was.empty() ? "the default" : was,
                              is.empty() ? "the default" : is));

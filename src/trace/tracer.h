@@ -24,8 +24,8 @@
 
 namespace rsphere {
 
-// In place of the surface on which a ray starts: it starts at a point of sphere mode, which lies on no
-// surface. Such a ray ignores only hits within rounding errors of its origin.
+// Given instead of the surface on which a ray starts, for a ray that starts in space, as at the points of
+// sphere mode. It ignores only hits within rounding errors of its origin.
 inline constexpr SurfaceId kInSpace{-2};
 
 struct Hit {

@@ -16,7 +16,7 @@
 
 namespace rsphere {
 
-// A set of evenly distributed directions, in a random position, or every `step`-th of them.
+// A lattice of directions with a random shift, or every `step`-th of them from `first` on.
 struct DirectionSet {
   int count;  // of the whole set
   std::array<double, 3> shifts;
@@ -37,9 +37,8 @@ class GatherDirections {
   using Each = FunctionRef<void(const V3d& direction, double part)>;
 
   // Draws the directions of a set. The parts of a whole set sum to 1 on average if the hemisphere lies in
-  // front of the surface.
-  // Leaves out directions behind the surface, and directions that miss the highlight at which they were
-  // aimed.
+  // front of the surface. Leaves out directions behind the surface, and directions that miss the highlight at
+  // which they were aimed.
   void draw(const DirectionSet& set, Each each) const;
 
  private:
