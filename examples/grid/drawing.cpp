@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "report/markup.h"
+#include "companions/report/markup.h"
 
 namespace grid {
 namespace {

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "area.h"
+#include "companions/report/page.h"
+#include "companions/report/plot.h"
 #include "drawing.h"
 #include "isolines.h"
 #include "layout.h"
 #include "rad_parser/scene_file.h"
-#include "report/page.h"
-#include "report/plot.h"
 #include "rtrace.h"
 
 namespace grid {

@@ -6,7 +6,7 @@
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
 #include "answer/run_summary.h"
-#include "importance/glare_estimator.h"
+#include "estimate/glare_estimator.h"
 
 namespace rsphere {
 

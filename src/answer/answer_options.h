@@ -5,9 +5,9 @@
 
 #include "answer/number_format.h"
 #include "answer/output_colors.h"
-#include "importance/sphere_options.h"
+#include "points/sphere_options.h"
+#include "rays/ray_options.h"
 #include "scene/sensors.h"
-#include "transport/ray_options.h"
 
 namespace rsphere {
 

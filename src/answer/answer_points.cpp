@@ -9,7 +9,7 @@
 #include "answer/report_interval.h"
 #include "answer/threads.h"
 #include "base/spectral_sampling.h"
-#include "importance/draw_point.h"
+#include "pictures/draw_point.h"
 
 namespace rsphere {
 namespace {

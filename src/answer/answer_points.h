@@ -9,7 +9,7 @@
 #include "answer/batch.h"
 #include "answer/picture_progress.h"
 #include "answer/run_summary.h"
-#include "importance/estimator.h"
+#include "estimate/estimator.h"
 
 namespace rsphere {
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "answer/threads.h"
+#include "rays/ray_report.h"
 #include "scene/modifier_names.h"
-#include "transport/ray_report.h"
 
 namespace rsphere {
 

@@ -5,9 +5,9 @@
 
 #include "answer/answer_options.h"
 #include "answer/output_colors.h"
-#include "importance/glare_answer.h"
-#include "importance/point_answer.h"
-#include "transport/ray_answer.h"
+#include "points/glare_answer.h"
+#include "points/point_answer.h"
+#include "rays/ray_answer.h"
 
 namespace rsphere {
 

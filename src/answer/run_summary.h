@@ -6,9 +6,9 @@
 
 #include "answer/answer_options.h"
 #include "answer/batch.h"
-#include "importance/glare_answer.h"
-#include "importance/point_answer.h"
-#include "transport/prepared_scene.h"
+#include "points/glare_answer.h"
+#include "points/point_answer.h"
+#include "rays/prepared_scene.h"
 
 namespace rsphere {
 

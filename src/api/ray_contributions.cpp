@@ -7,7 +7,7 @@
 
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
-#include "scene/random.h"
+#include "base/random.h"
 
 namespace rsphere::v1 {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "rad_parser/calc/library.h"
 #include "rad_parser/rayinit/inputs.h"
+#include "rays/ray.h"
 #include "shade/shared_definitions.h"
-#include "transport/ray.h"
 
 namespace rsphere {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "transport/ray_options.h"
+#include "rays/ray_options.h"
 
 namespace rsphere {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <unordered_map>
 
+#include "rays/ray_functions.h"
 #include "scene/modifier_names.h"
-#include "transport/ray_functions.h"
 
 namespace rsphere {
 

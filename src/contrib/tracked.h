@@ -9,9 +9,9 @@
 
 #include "contrib/bin_function.h"
 #include "contrib/contribution_list.h"
+#include "rays/prepared_scene.h"
 #include "sphere/equal_zones.h"
 #include "transport/path_tracer.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/even_sequence.h"
+#include "base/random.h"
 #include "field/hemisphere.h"
 #include "field/tuning.h"
-#include "scene/even_sequence.h"
-#include "scene/random.h"
 
 namespace rsphere {
 namespace {

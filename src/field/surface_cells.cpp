@@ -1,10 +1,10 @@
 #include "field/surface_cells.h"
 
 #include "base/constants.h"
+#include "base/even_sequence.h"
+#include "base/frame.h"
 #include "base/overloaded.h"
-#include "scene/even_sequence.h"
-#include "scene/frame.h"
-#include "scene/random.h"
+#include "base/random.h"
 
 namespace rsphere {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "scene/frame.h"
+#include "base/frame.h"
 
 namespace rsphere {
 namespace {

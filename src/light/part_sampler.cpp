@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/constants.h"
+#include "base/frame.h"
 #include "light/sources.h"
 #include "light/spherical_triangle.h"
 #include "light/tuning.h"
-#include "scene/frame.h"
 #include "shade/spot_cone.h"
 
 namespace rsphere {

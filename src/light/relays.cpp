@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/frame.h"
 #include "base/overloaded.h"
 #include "light/penumbra.h"
 #include "light/relay_tree.h"
-#include "scene/frame.h"
 
 namespace rsphere {
 namespace {

@@ -4,8 +4,8 @@
 // (-dj).
 #include <vector>
 
+#include "base/random.h"
 #include "light/light_source.h"
-#include "scene/random.h"
 #include "shade/spot_cone.h"
 #include "shade/surface_functions.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/frame.h"
 #include "base/overloaded.h"
-#include "scene/frame.h"
 
 namespace rsphere {
 

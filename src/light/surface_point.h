@@ -1,8 +1,8 @@
 #pragma once
 #include <span>
 
-#include "scene/random.h"
-#include "scene/scrambled_sequence.h"
+#include "base/random.h"
+#include "base/scrambled_sequence.h"
 #include "scene/shape.h"
 
 namespace rsphere {

@@ -1,9 +1,6 @@
 #pragma once
 // The tuning constants of this folder (base/tuned.h). They affect the variance of direct light and the
 // computing time, but not the mean.
-//
-// Each comment gives the meaning, the unit and the origin of the value. "Insensitive": changing it by 30% had
-// no effect beyond noise in tests/bench/sensitivity (runs/2026-11-22.txt).
 namespace rsphere::tuning {
 
 // How light sources are divided into parts and sampled (sources.cpp).

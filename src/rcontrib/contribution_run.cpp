@@ -8,9 +8,9 @@
 #include "answer/load_scene.h"
 #include "cli/program.h"
 #include "contrib/tracked.h"
+#include "rays/prepared_scene.h"
 #include "rcontrib/contribution_outputs.h"
 #include "rcontrib/record_sums.h"
-#include "transport/prepared_scene.h"
 #include "transport/transport.h"
 
 namespace rsphere {

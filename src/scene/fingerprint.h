@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scene/random.h"
+#include "base/random.h"
 #include "scene/scene.h"
 
 namespace rsphere {

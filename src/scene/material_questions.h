@@ -57,7 +57,7 @@ Cover coverOf(const Material& material);
 int imagesMadeBy(const Material& material);
 
 // ---- reflection. The irregularity of a material, which determines the number of directions towards it, is
-// in importance/special_objects.h.
+// in silhouettes/special_objects.h.
 
 // The specular reflection of a surface's front, if it may show a sharp image of its surroundings. Callers
 // choose the largest roughness with an image, the angle for Fresnel's equations, and `share` or `brightness`.

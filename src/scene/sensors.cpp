@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/frame.h"
+#include "base/frame.h"
 
 namespace rsphere {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstddef>
 
 #include "base/constants.h"
+#include "base/frame.h"
 #include "base/radiometry.h"
-#include "scene/frame.h"
 #include "scene/material.h"
 #include "shade/ray_kind.h"
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <span>
 
-#include "scene/random.h"
+#include "base/random.h"
 #include "shade/anisotropic.h"
 #include "shade/function_reflection.h"
 #include "shade/material_hit.h"

@@ -2,10 +2,10 @@
 // Places that much light comes from, at which rays are aimed. find_aims.h finds them.
 #include <memory>
 
-#include "transport/bright_spots.h"
-#include "transport/highlights.h"
-#include "transport/opening_images.h"
-#include "transport/openings.h"
+#include "openings/opening_images.h"
+#include "openings/openings.h"
+#include "spots/bright_spots.h"
+#include "spots/highlights.h"
 
 namespace rsphere {
 

@@ -5,8 +5,8 @@
 #include "field/coarse_solution.h"
 #include "field/field_options.h"
 #include "field/irradiance_field.h"
+#include "rays/prepared_scene.h"
 #include "transport/aims.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 

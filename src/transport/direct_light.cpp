@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "transport/ray_functions.h"
-#include "transport/ray_hit.h"
+#include "rays/ray_functions.h"
+#include "rays/ray_hit.h"
 #include "transport/ray_limits.h"
 
 namespace rsphere {

@@ -5,11 +5,11 @@
 // matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is sampled.
 #include <vector>
 
-#include "transport/function_ref.h"
+#include "base/function_ref.h"
+#include "light_paths/plain_surfaces.h"
+#include "rays/prepared_scene.h"
+#include "rays/ray_follower.h"
 #include "transport/path_state.h"
-#include "transport/plain_surfaces.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray_follower.h"
 
 namespace rsphere {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "rays/ray_functions.h"
 #include "transport/gather_directions.h"
-#include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
 

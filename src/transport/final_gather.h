@@ -1,8 +1,8 @@
 #pragma once
 // Traces the rays that the irradiance cache and the coarse solution request (field/field_rays.h).
 #include "field/field_rays.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray_follower.h"
+#include "rays/prepared_scene.h"
+#include "rays/ray_follower.h"
 
 namespace rsphere {
 

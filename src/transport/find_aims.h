@@ -1,8 +1,8 @@
 #pragma once
 // Finds the places at which directions are aimed (aims.h): for gathers, or for the directions of points.
 // Users leave out those whose light paths from both ends bring (SphereEstimator, IndirectLight).
+#include "rays/prepared_scene.h"
 #include "transport/aims.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 

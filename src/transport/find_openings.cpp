@@ -4,14 +4,14 @@
 #include <cmath>
 #include <span>
 
-#include "scene/even_sequence.h"
-#include "scene/random.h"
+#include "base/even_sequence.h"
+#include "base/random.h"
+#include "openings/holes.h"
+#include "openings/panes.h"
+#include "openings/tuning.h"
 #include "shade/scattering.h"
 #include "trace/tracer.h"
-#include "transport/holes.h"
-#include "transport/panes.h"
 #include "transport/path_tracer.h"
-#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-#include "transport/openings.h"
-#include "transport/prepared_scene.h"
+#include "openings/openings.h"
+#include "rays/prepared_scene.h"
 
 namespace rsphere {
 

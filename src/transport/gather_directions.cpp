@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/even_sequence.h"
+#include "base/even_sequence.h"
+#include "rays/ray_functions.h"
 #include "shade/scattering.h"
-#include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
 

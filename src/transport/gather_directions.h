@@ -6,13 +6,13 @@
 
 #include <array>
 
-#include "scene/random.h"
+#include "base/function_ref.h"
+#include "base/random.h"
+#include "openings/proposals.h"
+#include "rays/prepared_scene.h"
+#include "rays/ray.h"
 #include "transport/aims.h"
-#include "transport/function_ref.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
-#include "transport/proposals.h"
-#include "transport/ray.h"
 
 namespace rsphere {
 

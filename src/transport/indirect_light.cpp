@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/function_ref.h"
+#include "light_paths/vertex_light.h"
+#include "rays/ray_functions.h"
 #include "transport/final_gather.h"
-#include "transport/function_ref.h"
 #include "transport/gather_directions.h"
-#include "transport/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
-#include "transport/vertex_light.h"
 
 namespace rsphere {
 namespace {

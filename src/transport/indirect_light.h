@@ -7,9 +7,9 @@
 // with more rays where the gather is noisy. With -aa 0, light is gathered from -ad + -as stratified
 // directions at the first diffuse surface, and from the same number as in RADIANCE at later ones.
 #include "field/irradiance_field.h"
+#include "rays/prepared_scene.h"
+#include "rays/ray_follower.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray_follower.h"
 
 namespace rsphere {
 

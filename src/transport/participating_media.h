@@ -1,9 +1,9 @@
 #pragma once
 // Media that absorb and scatter light along a ray (-me, -ma, -mg, and the material mist).
+#include "rays/prepared_scene.h"
+#include "rays/ray_functions.h"
 #include "transport/direct_light.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray_functions.h"
 
 namespace rsphere {
 

@@ -2,12 +2,12 @@
 // The state of a path while it is traced.
 #include <cstdint>
 
+#include "base/random.h"
 #include "field/patch_links.h"
-#include "scene/random.h"
+#include "rays/path_observer.h"
 #include "trace/tracer.h"
 #include "transport/aims.h"
 #include "transport/caches.h"
-#include "transport/path_observer.h"
 
 namespace rsphere {
 

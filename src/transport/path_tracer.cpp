@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "rays/ray_functions.h"
+#include "rays/ray_hit.h"
 #include "transport/participating_media.h"
-#include "transport/ray_functions.h"
-#include "transport/ray_hit.h"
 #include "transport/ray_limits.h"
 #include "transport/surface_shading.h"
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "transport/path_observer.h"
+#include "rays/path_observer.h"
+#include "rays/prepared_scene.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "transport/ray_functions.h"
+#include "rays/ray_functions.h"
 
 namespace rsphere {
 namespace {

@@ -2,9 +2,9 @@
 // Limits how far paths are followed and how often they split: -lr, -lw, -ss, and the limits for gathers.
 #include <algorithm>
 
+#include "rays/prepared_scene.h"
+#include "rays/ray.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray.h"
 #include "transport/tuning.h"
 
 namespace rsphere {

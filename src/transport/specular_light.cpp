@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "transport/ray_functions.h"
+#include "rays/ray_functions.h"
 #include "transport/ray_limits.h"
 #include "transport/tuning.h"
 

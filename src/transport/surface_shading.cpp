@@ -1,11 +1,11 @@
 // Shading of the surface that a ray hit.
 #include "transport/surface_shading.h"
 
-#include "transport/ray_functions.h"
-#include "transport/ray_interaction.h"
+#include "rays/ray_functions.h"
+#include "rays/ray_interaction.h"
+#include "rays/shared_highlights.h"
+#include "rays/volume_boundaries.h"
 #include "transport/ray_limits.h"
-#include "transport/shared_highlights.h"
-#include "transport/volume_boundaries.h"
 
 namespace rsphere {
 namespace {

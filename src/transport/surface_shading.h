@@ -1,14 +1,14 @@
 #pragma once
 // Shading of the surface that a ray hit: processes its chain of modifiers down to a material, including
 // mixtures, and adds up the light that the material's response requires (shade/material_response.h).
+#include "light_paths/vertex_light.h"
+#include "rays/prepared_scene.h"
+#include "rays/ray_follower.h"
 #include "shade/material_response.h"
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
 #include "transport/path_state.h"
-#include "transport/prepared_scene.h"
-#include "transport/ray_follower.h"
 #include "transport/specular_light.h"
-#include "transport/vertex_light.h"
 
 namespace rsphere {
 

@@ -1,10 +1,10 @@
 #pragma once
 // The data that all path tracers of a run share: the prepared scene, the aims of gathers, and the caches of
 // interpolated light.
+#include "rays/prepared_scene.h"
 #include "transport/aims.h"
 #include "transport/caches.h"
 #include "transport/path_tracer.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "scene/random.h"
+#include "base/random.h"
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "-version") == 0) return std::puts("RADIANCE 0.0 (of a test)") < 0;

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "cli/option_table.h"
-#include "importance/estimator.h"
+#include "estimate/estimator.h"
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
 #include "tests/bench/support/bench_main.h"

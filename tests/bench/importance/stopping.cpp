@@ -21,13 +21,13 @@
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "cli/option_table.h"
-#include "importance/estimator.h"
-#include "importance/two_halves.h"
-#include "measure/statistics.h"
+#include "companions/measure/statistics.h"
+#include "estimate/estimator.h"
+#include "estimate/two_halves.h"
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
-#include "scene/random.h"
 #include "tests/bench/support/bench_main.h"
 
 namespace rsphere {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "scene/random.h"
+#include "base/random.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {

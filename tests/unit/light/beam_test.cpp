@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "scene/random.h"
+#include "base/random.h"
 
 namespace rsphere {
 namespace {

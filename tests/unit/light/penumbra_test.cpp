@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/random.h"
+#include "base/random.h"
 
 namespace rsphere {
 namespace {

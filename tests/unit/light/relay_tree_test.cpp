@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "scene/random.h"
+#include "base/random.h"
 
 namespace rsphere {
 namespace {

@@ -7,10 +7,10 @@
 #include <csignal>
 #include <filesystem>
 
+#include "rays/prepared_scene.h"
 #include "rcontrib/record_sums.h"
 #include "tests/unit/support/command_line.h"
 #include "tests/unit/support/scene_of.h"
-#include "transport/prepared_scene.h"
 
 namespace rsphere {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/option_table.h"
-#include "importance/estimator.h"
+#include "estimate/estimator.h"
 
 namespace rsphere {
 

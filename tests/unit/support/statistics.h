@@ -7,8 +7,8 @@
 #include <span>
 
 #include "base/color.h"
-#include "measure/statistics.h"
-#include "scene/random.h"
+#include "base/random.h"
+#include "companions/measure/statistics.h"
 
 namespace rsphere {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "scene/random.h"
+#include "base/random.h"
 #include "tests/unit/support/files_of.h"
 #include "tests/unit/support/scene_of.h"
 #include "trace/tracer.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/unit/transport/highlight_scene.h"
+#include "tests/unit/spots/highlight_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
 
 namespace rsphere {

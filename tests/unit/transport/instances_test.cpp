@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "rad_parser/scene_file.h"
+#include "rays/ray_report.h"
 #include "scene/build_scene.h"
 #include "transport/transport.h"
-#include "transport/ray_report.h"
 
 // Rays that hit instances and meshes, compared with the original.
 namespace rsphere {

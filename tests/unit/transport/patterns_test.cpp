@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "rays/ray_report.h"
 #include "scene/build_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/ray_report.h"
 
 // Patterns, textures and mixtures: every type against values of the original, and errors in their
 // files and arguments.

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "rays/ray_report.h"
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/ray_report.h"
 
 // The rays that an observer is shown.
 namespace rsphere::ray_tree_test {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/constants.h"
+#include "rays/ray_report.h"
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/ray_report.h"
 
 namespace rsphere {
 namespace {

@@ -1,0 +1,40 @@
+#pragma once
+// The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance and the
+// time, but not the mean, except slightly for those of Stopping.
+#include <cstddef>
+
+#include "base/tuned.h"
+
+namespace rsphere::tuning {
+
+// The strategy -Sw c as a whole (silhouette_weights.cpp).
+struct SilhouetteWeights {
+  // Base directions for each direction to images of light sources; the latter are at least
+  // SeenSources::kUsualRays. Chosen by experiment. Insensitive.
+  RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
+};
+
+// The end of -Sa (two_halves.cpp).
+struct Stopping {
+  // Each half requests sets until its standard error is below this multiple of the requested one: measured.
+  // One answer in 50, instead of 25, then needs further sets because its own error estimate is too large.
+  // Those sets cause the remaining bias. Insensitive.
+  RSPHERE_TUNED(Stopping, double, kMargin, .95);
+  // Cap on the ratio between the numbers of sets of the two halves: derived. If a set finds something very
+  // bright, the other half is given many sets. The cap gives the half of the bright set some as well, and
+  // these reduce its weight sooner. With a ratio of 1, the number of sets of a half would depend on its own
+  // sets, which is the bias that the halves avoid. 2 is therefore the smallest integer.
+  static constexpr size_t kMostRatio = 2;
+};
+
+// Points at which almost no light arrives (estimator.cpp, two_halves.cpp).
+struct Dark {
+  // -Sa stops early if the mean is below this fraction of the average radiance on the scene's surfaces. A
+  // warning names the point if less than this fraction of the directions find light. Derived: it is two of
+  // the usual 2048 directions, whose mean is known within 71%. In closed metal furniture, one direction in a
+  // hundred thousand finds a gap between surfaces; a million directions could not measure its light within a
+  // percent. Insensitive.
+  static constexpr double kShare = 2. / 2048;
+};
+
+}  // namespace rsphere::tuning

@@ -1,0 +1,103 @@
+#pragma once
+// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling
+// (light_paths/vertex_light.h):
+// - glances: evenly spread directions of which only the nearest hit is found, many for each traced direction,
+// - joins: shadow rays from the point to light vertices, sent more often to those that would contribute more.
+// Traced directions find the remaining light: of sources in view, sharp reflections, and sampled rough
+// highlights.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "glances/light_pools.h"
+#include "glances/sphere_tracing.h"
+#include "points/base_set.h"
+#include "points/sampling_strategy.h"
+#include "points/sphere_options.h"
+
+namespace rsphere {
+
+// Shared by all threads.
+class DiffuseGlances {
+ public:
+  // Null if bidirectional sampling would miss some of the light (PlainSurfaces::obstacle()). Keeps
+  // references.
+  static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
+                                                    const SphereOptions& options, const BaseSet& base);
+  // The same for rooms that daylight enters through openings, for points that suitDaylight(). surfaces: from
+  // daylitSurfaces().
+  static std::unique_ptr<const DiffuseGlances> makeDaylit(const SphereTracing& tracing,
+                                                          const PlainSurfaces& surfaces,
+                                                          const SphereOptions& options, const BaseSet& base);
+  // REQUIRES that surfaces.obstacle() is null. tracers: none without portals.
+  DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces, const SphereOptions& options,
+                 const BaseSet& base, LightPools::Tracers tracers = {});
+
+  // The light found by the glances and joins of one set at its point.
+  struct Found {
+    // gaze: Moments::gaze.
+    explicit Found(const DirectionBins* zones = nullptr, const std::optional<V3d>& gaze = {})
+        : moments(zones, gaze), ofZones(zones) {}
+    Moments moments;     // of the light
+    Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are requested
+    SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are requested
+    size_t lit = 0;      // glances that found light
+    // By zone (-Sz): variance and shared error; empty without zones, or if errors are not requested.
+    ZoneVariances ofZones;
+    std::vector<SharedError> sharedByZone;
+  };
+  // tracer: for the light beyond portals.
+  Found at(const SetAtPoint& set, PathTracer& tracer) const;
+
+  // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.
+  Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
+
+  // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
+  // and other transmitting surfaces.
+  std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
+    return lights_.at(set.point(), set.number());
+  }
+  const LightPools& lights() const { return lights_; }
+
+ private:
+  class Joins;
+  // State shared by the glances at one point.
+  struct Glancing {
+    const VertexLight& both;
+    Random random;
+    const Joins* joins = nullptr;           // null: no joins
+    VertexLight::Record* record = nullptr;  // null: errors are not requested
+    double cell = 0;                        // solid angle of a glance, sr
+    VertexLight::Scratch scratch{};
+  };
+  // One record for each zone and one for directions in no zone; a single one without zones.
+  using Records = std::vector<VertexLight::Record>;
+  VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
+  struct Joined {
+    Irradiance part;
+    uint8_t batch;
+    double notChosen;  // the share of such vertices that are not joined
+  };
+  SharedError evened(const Joins& joins, std::span<const Joined> all) const;
+  void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
+  Radiance glance(const V3d& point, const V3d& direction, Glancing& by) const;
+
+  const PreparedScene& prepared_;
+  PlainSurfaces surfaces_;
+  LightPools lights_;
+  std::vector<V3d> glances_;
+  std::shared_ptr<const DirectionBins> zones_;  // null: light is not divided
+  std::optional<Neighbours> neighbours_;        // empty unless standard errors are requested
+  double joins_;                                // expected number of joins at a point
+};
+
+// The surfaces of a scene with the openings of tracing.aims as portals. Empty if there are no openings, if
+// light is interpolated (-aa above 0), or if paths from both ends would miss some of the light.
+std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing);
+
+// Whether nearly all paths of up to `bounces` diffuse reflections from a point in a daylit room lead only to
+// plain surfaces and portals. Otherwise, as outdoors, most of the light would be left to a few paths from the
+// eye. Depends only on the point and the scene.
+bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces);
+
+}  // namespace rsphere

@@ -1,0 +1,162 @@
+#pragma once
+// Light vertices: the places where light paths from the sources hit diffuse surfaces. Joined to paths from
+// the eye (bidirectional path tracing: vertex_light.h), they provide light that paths from the eye alone
+// would find only by chance.
+//
+// Light paths are the paths of path_tracer.h in the opposite direction:
+// - A source lights the first diffuse surface directly, through panes, or by a rough highlight. Sharp
+//   reflections are excluded, because shadow rays do not follow them either.
+// - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
+//   reflections.
+// - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
+//   direct sunlight, it is light of other surfaces or of the sky, which sharp reflections transport, too.
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/function_ref.h"
+#include "light_paths/light_vertex.h"
+#include "light_paths/plain_surfaces.h"
+#include "light_paths/sky_emission.h"
+#include "light_paths/source_emission.h"
+#include "occluders/hidden_boxes.h"
+
+namespace rsphere {
+
+// How the light between diffuse surfaces is divided between rays and light vertices by distance (world
+// units).
+struct NearLight {
+  double width = 0;       // distance at which share() is 1/2
+  double meanLength = 1;  // of light paths from the sources to the first surfaces
+
+  // The fraction of the light between two diffuse surfaces at this distance that rays estimate, because
+  // vertices would make it too noisy. It falls with the fourth power of the distance: the few rays that meet
+  // something bright far away would be noisier than the vertices there.
+  double share(double distance) const {
+    const double ratio = distance * distance / (width * width);
+    return 1 / (1 + ratio * ratio);
+  }
+  // The largest distance at which share() is at least this share, which is above 0.
+  double distanceOf(double share) const { return width * std::sqrt(std::sqrt((1 - share) / share)); }
+  // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
+  // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
+  // eye. Joins are bounded by the same kernel as light between diffuse surfaces.
+  double closeShare(double distance, double fromEye) const;
+};
+
+// A vertex that may be joined directly to the eye, the point whose answer is computed.
+struct VisibleVertex {
+  LightVertex vertex;
+  Irradiance power;  // as LightVertices::powerOf(); for direct light, without the color of the material
+  V3d direction;     // of the arriving light (unit)
+  const Opaque* material;
+  Color pattern;
+  bool flat;
+  double length;   // distance from the surface or source that sent the light, world units
+  V3d normal;      // as vertex.normal(), in double precision
+  LightId source;  // for direct light: where the light path began, and the cosine there
+  double cosineAtSource;
+
+  // The fraction of the vertex's light that is estimated by joins with an eye at this distance.
+  double joinedShare(const NearLight& near, double fromEye) const {
+    if (vertex.way == LightVertex::diffuse) return near.closeShare(length, fromEye) * near.share(length);
+    return vertex.way == LightVertex::highlight ? 1 - near.share(length) : 1;
+  }
+};
+
+class VisibleVertices {
+ public:
+  void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
+  // Removes all, and reserves memory for as many, times a factor.
+  void clearFor(double times);
+  // Call this once, after the last vertex has been added.
+  void sort(const PreparedScene& prepared);
+
+  const std::vector<VisibleVertex>& all() const { return all_; }
+  // Calls use(begin, end) for ascending index ranges of all(). They contain all vertices except some that are
+  // hidden from the point.
+  void from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
+  // Where LightVertices::shadowRaysTo() keeps its result for one of all(); 0: not computed yet.
+  std::atomic<double>& shadowRaysTo(const VisibleVertex& v) const {
+    return shadowRays_[static_cast<size_t>(&v - all_.data())];
+  }
+
+ private:
+  static constexpr size_t kBlock = 256;
+
+  std::vector<VisibleVertex> all_;
+  std::optional<HiddenBoxes> hidden_;  // boxes around blocks of all_; empty if little is hidden
+  mutable std::vector<std::atomic<double>> shadowRays_;
+};
+
+// Shared by all threads; constant, but for what is computed when it is first asked for.
+class LightVertices {
+ public:
+  // Sends paths from the sources, distributed as in `emission`. Keeps a reference to the surfaces. outdoors:
+  // null without portals. REQUIRES that PlainSurfaces::obstacle() found none.
+  LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
+                size_t paths, uint64_t seed, const OutdoorParts* outdoors = nullptr);
+
+  // The share of the paths that starts on portals for light of the sky; the others start on sources.
+  static double shareOfSky(const PlainSurfaces& surfaces);
+
+  // Vertices that send light to other diffuse surfaces. The vertices of a cluster are consecutive.
+  const std::vector<LightVertex>& all() const { return all_; }
+  // For each cluster (vertex_clusters.h), the index in all() after its last vertex.
+  const std::vector<uint32_t>& clusterEnds() const { return ends_; }
+  // The light that arrives at vertex i of all(), multiplied by the color of the material (W). The vertex
+  // reflects the fraction diffuseShare() of it.
+  const Irradiance& powerOf(size_t i) const { return arriving_[i].power; }
+  const Opaque& materialOf(size_t i) const { return *arriving_[i].material; }
+
+  const VisibleVertices& visible() const { return visible_; }
+  // SourceEmission::shadowRaysOver() for shadow rays from a vertex of visible() to the place on the source
+  // where the light path began. Computed when it is first asked for: in a building, most vertices are in
+  // other rooms. REQUIRES direct light.
+  double shadowRaysTo(const VisibleVertex& vertex) const;
+  const NearLight& nearLight() const { return near_; }
+  const SourceEmission& emission() const { return starts_.onSources; }
+  // Mean power of a path, W (brightness).
+  double pathPower() const { return starts_.pathPower; }
+
+  // The probability of following a path from the eye at a place, for light that neither vertices nor near
+  // rays estimate. The more light hits unknown surfaces, the higher it is.
+  double shareOfRest() const { return shareOfRest_; }
+
+ private:
+  class Path;
+  struct Arriving {
+    Irradiance power;
+    const Opaque* material;
+  };
+  NearLight measured(const PreparedScene& prepared, size_t paths, uint64_t seed,
+                     const OutdoorParts* outdoors);
+  void sort();
+
+  // Where light paths start.
+  struct Starts {
+    Starts(SourceEmission emission, const Portals& portals, double shareOfSky, size_t paths);
+
+    SourceEmission onSources;
+    double shareOfSky;  // of the paths: these start on portals, for light of the sky
+    SkyEmission onPortals;
+    double pathPower;  // mean, W (brightness)
+  };
+
+  const PlainSurfaces& surfaces_;
+  Starts starts_;
+  double shareOfRest_ = 1;
+  NearLight near_;
+  std::vector<LightVertex> all_;
+  std::vector<Arriving> arriving_;  // index: as in all_
+  std::vector<uint32_t> ends_;
+  VisibleVertices visible_;
+};
+
+// Approximate reflectance of a place for light from one direction towards the eye, relative to a white
+// diffuse surface; used to select joins. toSource: direction to the source (unit). view: direction of the ray
+// from the eye (unit).
+double joinedReflectance(const Opaque& material, const V3d& normal, const V3d& view, const V3d& toSource);
+
+}  // namespace rsphere

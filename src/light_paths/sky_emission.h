@@ -1,0 +1,34 @@
+#pragma once
+// Starts light paths on portals (portals.h), for all light that comes through them but direct sunlight.
+#include "light_paths/outdoor_light.h"
+#include "openings/portals.h"
+
+namespace rsphere {
+
+// Constant. Keeps a reference to the portals.
+class SkyEmission {
+ public:
+  // paths: the number of paths from all portals together; 0: there are none.
+  SkyEmission(const Portals& portals, double paths);
+
+  // Expected mean power of a path, W (brightness).
+  double pathPower() const { return pathPower_; }
+
+  struct Leaving {
+    V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; unit
+    Irradiance power;                         // of the path, W
+    // Number of bounces that count for its light when it arrives at the first surface: 1, because paths from
+    // the eye find such light by an indirect ray, plus those outdoors. It is the same for all light of a
+    // path.
+    int bounces = 0;
+  };
+  // where: 0 to 1, selects the portal. most: limit on the bounces of the light; below 1: no light.
+  Leaving leave(double where, int most, Random& random, OutdoorParts outdoors) const;
+
+ private:
+  const Portals& portals_;
+  double pathPower_ = 0;
+  double sum_ = 0;  // of area times radiance over the portals
+};
+
+}  // namespace rsphere

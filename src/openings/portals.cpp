@@ -1,0 +1,81 @@
+#include "openings/portals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+
+namespace rsphere {
+Portals::Portals(const Openings& openings, double size, double samePlace)
+    : lift_(std::max(1e-6 * size, 8 * samePlace)) {
+  double brightest = 0;
+  for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);
+  for (const auto& [place, radiance] : openings.views()) {
+    if (radiance < tuning::Portals::kLeastRadiance * brightest) continue;
+    Portal portal{place, radiance};
+    portal.corner -= lift_ * portal.normal;
+    portals_.push_back(portal);
+  }
+}
+
+double Portals::leaving(const V3d& origin, const V3d& direction, double farthest) const {
+  double nearest = farthest;
+  for (const Portal& p : portals_) {
+    const double cosine = -direction.dot(p.normal);
+    if (!(cosine > 0)) continue;
+    const double distance = (origin - p.corner).dot(p.normal) / cosine;
+    if (distance >= 0 && distance < nearest && contains(p, origin + distance * direction)) nearest = distance;
+  }
+  return nearest < farthest ? nearest : kFarAway;
+}
+
+PortalDirections::PortalDirections(const Portals& portals, const V3d& point, const V3d& normal)
+    : point_(point), normal_(normal) {
+  double sum = 0;
+  for (const Portal& p : portals.all()) {
+    const double distance = (point - p.corner).dot(p.normal);
+    if (!(distance > 0)) continue;
+    // The portal's light at the place is estimated from the mean cosine of the directions to its corners; 0
+    // for corners below the horizon.
+    double height = 0;
+    for (int c = 0; c < 4; ++c) {
+      const V3d to = p.at(c & 1, c >> 1) - point;
+      height += std::max(0., to.dot(normal)) / (4 * to.length());
+    }
+    if (!(height > 0)) continue;
+    const SphericalRectangle shape(point, p);
+    if (!(shape.solidAngle() > 0)) continue;
+    sum += height * shape.solidAngle() * p.radiance;
+    seen_.push_back({&p, shape, sum});
+  }
+  for (Seen& s : seen_) s.upTo /= sum;
+}
+
+// chosen: contains the direction, whatever rounding does.
+double PortalDirections::density(const V3d& direction, const Seen& chosen) const {
+  double sum = 0, before = 0;
+  for (const Seen& s : seen_) {
+    const double share = s.upTo - before, cosine = -direction.dot(s.portal->normal);
+    before = s.upTo;
+    if (&s != &chosen) {
+      if (!(cosine > 0)) continue;
+      const double distance = (point_ - s.portal->corner).dot(s.portal->normal) / cosine;
+      if (!contains(*s.portal, point_ + distance * direction)) continue;
+    }
+    sum += share / s.shape.solidAngle();
+  }
+  return sum;
+}
+
+PortalDirections::Sample PortalDirections::draw(Random& random) const {
+  Sample sample;
+  const double u = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
+  if (seen_.empty()) return sample;
+  const auto chosen = std::find_if(seen_.begin(), seen_.end() - 1, [&](const Seen& s) { return u < s.upTo; });
+  sample.direction = chosen->shape.sample(u1, u2);
+  const double even = normal_.dot(sample.direction) / kPi;
+  if (even > 0) sample.share = even / density(sample.direction, *chosen);
+  return sample;
+}
+
+}  // namespace rsphere

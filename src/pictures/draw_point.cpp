@@ -1,0 +1,447 @@
+#include "pictures/draw_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/colorimetry.h"
+#include "image/screen_color.h"
+#include "pictures/pixel_tracer.h"
+#include "pictures/tuning.h"
+#include "rays/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+// Two points on a ball may share light if each is near the plane of the other, within
+// tuning::Pictures::kNear. The cosine of the angle between their normals is then at least this. Normals of
+// surfaces that meet in an edge differ more.
+const float kSameNormal = 1 - 2 * tuning::Pictures::kNear * tuning::Pictures::kNear;
+
+const Smoothing kOfIndirect{tuning::Pictures::kIndirectPasses, tuning::Pictures::kFinePasses,
+                            tuning::Pictures::kSameLight, kSameNormal, tuning::Pictures::kNear};
+const Smoothing kOfGloss{tuning::Pictures::kFinePasses, 0, 0, tuning::Pictures::kSameGlossNormal,
+                         tuning::Pictures::kNear};
+// The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
+// they differ visibly from their neighbors.
+const Smoothing kOfDirect{1, tuning::Pictures::kFinePasses, tuning::Pictures::kSameLight, kSameNormal,
+                          tuning::Pictures::kNear};
+
+constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
+
+// The seeds of a picture's random numbers, each named after its use.
+class PictureStreams {
+ public:
+  explicit PictureStreams(uint64_t seed) : seed_(seed) {}
+  uint64_t smallSources() const { return mixBits(seed_ + 1); }
+  uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
+  // beside: index in tuning::Pictures::kBeside.
+  uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
+  // repeat: below tuning::Pictures::kRepeats.
+  uint64_t direct(size_t pixel, int repeat) const {
+    return mixBits(middle(pixel) + 128 + static_cast<uint64_t>(repeat));
+  }
+  // around: index in tuning::Pictures::kAround.
+  uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
+
+ private:
+  uint64_t seed_;
+};
+
+// The light of small sources in one pixel.
+struct Spot {
+  double solidAngle = 0;
+  Irradiance light;
+};
+
+// The sources that pixels may miss: their images, and the light that they add to each pixel.
+struct SmallSources {
+  std::vector<SeenSources::Image> images;
+  std::map<size_t, Spot> spots;  // by pixel
+};
+
+SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const SeenSources& sources,
+                          uint64_t seed) {
+  SmallSources small{sources.findImages(paths.point(), map.count(), 0), {}};
+  // Pixels are smaller near the rim and the poles.
+  for (SeenSources::Image& image : small.images) {
+    const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
+    const double pixels = there > 0 ? image.solidAngle / there : tuning::Pictures::kSmallest;
+    image.rays =
+        pixels < tuning::Pictures::kSmallest ? tuning::Pictures::kSmallest * std::max(1., pixels) : 0;
+  }
+  small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
+                                    [](const auto& image) { return image.rays == 0; }),
+                     small.images.end());
+  for (const SeenSources::Sample& s : sources.sample(paths, small.images, seed)) {
+    if (!(s.direction.solidAngle > 0)) continue;
+    Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
+    spot.solidAngle += s.direction.solidAngle;
+    spot.light += irradianceFrom(s.direction.value, s.direction.solidAngle);
+  }
+  return small;
+}
+
+// All pixels of a picture, by component.
+struct Pixels {
+  SeenSurfaces seen;
+  PixelLight indirect, gloss, direct;
+  // What the ray through the middle of a pixel finds.
+  struct Middle {
+    V3d rest{0, 0, 0}, pattern{1, 1, 1};
+    Imath::V3f direct{0, 0, 0};  // before smoothing
+    bool sharesGloss = false, sharesDirect = false, isTraced = false;
+  };
+  std::vector<Middle> middles;
+
+  explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}} {
+    seen.pixels.resize(map.count());
+    for (PixelLight* component : {&indirect, &gloss, &direct}) {
+      component->light.assign(map.count(), Imath::V3f(0, 0, 0));
+      component->known.assign(map.count(), 0);
+    }
+    middles.resize(map.count());
+  }
+  // Pixels that are not set are black.
+  void set(size_t pixel, const PixelSample& sample, bool hasIndirect) {
+    seen.pixels[pixel] = sample.seen;
+    indirect.light[pixel] = Imath::V3f(sample.indirect);
+    indirect.known[pixel] = hasIndirect ? 1 : 0;
+    gloss.light[pixel] = Imath::V3f(sample.gloss);
+    gloss.known[pixel] = sample.sharesGloss ? 1 : 0;
+    direct.light[pixel] = Imath::V3f(sample.direct);
+    direct.known[pixel] = sample.sharesDirect ? 1 : 0;
+    middles[pixel] = {sample.rest,        sample.pattern,      direct.light[pixel],
+                      sample.sharesGloss, sample.sharesDirect, true};
+  }
+  // The light of a sample with all components. Those that the sample lacks come from the given pixel.
+  V3d complete(const PixelSample& sample, size_t pixel) const {
+    V3d value = sample.rest + sample.direct;
+    if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
+    if (sample.sharesGloss) value += V3d(gloss.light[pixel]);
+    return value;
+  }
+  // The sample of the ray through the middle of the pixel.
+  PixelSample own(size_t pixel) const {
+    const Middle& middle = middles[pixel];
+    PixelSample own;
+    own.rest = middle.rest;
+    own.direct = V3d(middle.direct);
+    own.pattern = middle.pattern;
+    own.seen.material = seen.pixels[pixel].material;
+    own.sharesGloss = middle.sharesGloss;
+    return own;
+  }
+  V3d value(size_t pixel) const {
+    PixelSample sample = own(pixel);
+    if (middles[pixel].sharesDirect) sample.direct = V3d(direct.light[pixel]);
+    return complete(sample, pixel);
+  }
+};
+
+// Averages the rays of a pixel, and decides whether they differ visibly.
+class RaysOfPixel {
+ public:
+  // most: the largest value of a color that the picture can show.
+  RaysOfPixel(double exposure, double most) : exposure_(exposure), most_(most) {}
+
+  void add(const V3d& value) {
+    for (int c = 0; c < 3; ++c) {
+      const double shown = std::clamp(value[c], 0., most_), onScreen = sRgb(exposure_ * shown);
+      sum_[c] += shown;
+      darkest_[c] = std::min(darkest_[c], onScreen);
+      brightest_[c] = std::max(brightest_[c], onScreen);
+    }
+    ++count_;
+  }
+  bool differ() const {
+    const V3d range = brightest_ - darkest_;
+    return std::max({range.x, range.y, range.z}) > tuning::Pictures::kVisible;
+  }
+  // Empty without rays.
+  std::optional<V3d> mean() const { return count_ > 0 ? std::optional(sum_ / count_) : std::nullopt; }
+
+ private:
+  double exposure_, most_;
+  V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
+  int count_ = 0;
+};
+
+// Removes the noise of soft shadows. Differences are judged relative to all diffuse light, as the eye
+// perceives them. In indirectly lit places, the noise of direct light is therefore not visible.
+void smoothDirect(Pixels& pixels) {
+  std::vector<Imath::V3f>& light = pixels.direct.light;
+  const std::vector<Imath::V3f>& indirect = pixels.indirect.light;
+  for (size_t i = 0; i < light.size(); ++i) light[i] += indirect[i];
+  smoothLight(pixels.seen, kOfDirect, pixels.direct);
+  for (size_t i = 0; i < light.size(); ++i) light[i] -= indirect[i];
+}
+
+class Painter {
+ public:
+  Painter(const V3d& point, const PixelMap& map, const Transport& transport, const SeenSources& sources,
+          uint64_t seed, const DrawingProgress& progress)
+      : map_(map),
+        sources_(sources),
+        streams_(seed),
+        progress_(progress),
+        tracer_(point, transport),
+        small_(smallSources(tracer_.paths(), map, sources, streams_.smallSources())),
+        sampling_(transport.prepared().options().sampling),
+        sharing_(isLitByLamps(transport.prepared()) ? tuning::Pictures::kSharingByLamps
+                                                    : tuning::Pictures::kSharing) {}
+
+  Raster draw(bool forScreen);
+
+ private:
+  Pixels tracePixels();
+  std::optional<PixelSample> look(double x, double y, uint64_t seed, PixelParts parts);
+  std::optional<PixelSample> middle(int column, int row, PixelParts parts);
+  void gatherWhereUnknown(Pixels& pixels);
+  void repeatDirect(Pixels& pixels);
+  std::vector<bool> uneven(const Raster& raster, double exposure) const;
+  bool gathers(int column, int row) const;
+  std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place);
+  V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays);
+  std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const;
+  void refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster);
+  void addSmallSources(Raster& raster) const;
+  size_t at(int column, int row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(map_.width()) + static_cast<size_t>(column);
+  }
+  void report(double done) const {
+    if (progress_) progress_(done);
+  }
+
+  const PixelMap& map_;
+  const SeenSources& sources_;
+  const PictureStreams streams_;
+  const DrawingProgress& progress_;
+  PixelTracer tracer_;
+  const SmallSources small_;
+  const SpectralSampling* const sampling_;
+  const int sharing_;  // one pixel in a square of this side gathers
+};
+
+// Traces the ray through a position in the picture. Empty outside the rim of a fisheye, and where the ray
+// hits a small source, because the light of small sources is added later.
+std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, PixelParts parts) {
+  const auto direction = map_.direction(x, y);
+  if (!direction) return std::nullopt;
+  const PixelSample sample = tracer_.trace(*direction, seed, parts);
+  if (!small_.images.empty() && sources_.isOneStraight(sample.shown, small_.images)) return std::nullopt;
+  return sample;
+}
+
+// The same for the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
+std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
+  const size_t pixel = at(column, row);
+  if (!map_.direction(column + .5, row + .5)) return std::nullopt;
+  auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
+  for (size_t i = 0; !sample && i < tuning::Pictures::kBeside.size(); ++i)
+    sample = look(column + .5 + tuning::Pictures::kBeside[i][0], row + .5 + tuning::Pictures::kBeside[i][1],
+                  streams_.aside(pixel, i), parts);
+  return sample;
+}
+
+// In each block one pixel gathers. Its position is random, so that no grid is visible.
+bool Painter::gathers(int column, int row) const {
+  const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
+                                       static_cast<uint64_t>(sharing_ * sharing_));
+  return column % sharing_ == chosen % sharing_ && row % sharing_ == chosen / sharing_;
+}
+
+Pixels Painter::tracePixels() {
+  Pixels pixels(map_);
+  int traced = 0;
+  for (int sweep = 0; sweep < tuning::Pictures::kSweeps; ++sweep)
+    for (int row = sweep; row < map_.height(); row += tuning::Pictures::kSweeps) {
+      report(kTracingShare * traced++ / map_.height());
+      for (int column = 0; column < map_.width(); ++column) {
+        const bool all = gathers(column, row);
+        if (const auto sample = middle(column, row, all ? PixelParts::all : PixelParts::noIndirect))
+          pixels.set(at(column, row), *sample, all);
+      }
+    }
+  return pixels;
+}
+
+// Gathers at pixels that smoothing left without indirect light: a small surface may have no pixel that
+// gathers.
+void Painter::gatherWhereUnknown(Pixels& pixels) {
+  for (int row = 0; row < map_.height(); ++row)
+    for (int column = 0; column < map_.width(); ++column) {
+      const size_t pixel = at(column, row);
+      if (pixels.seen.pixels[pixel].material == kNone || pixels.indirect.known[pixel] > 0) continue;
+      if (const auto sample = middle(column, row, PixelParts::all))
+        pixels.indirect.light[pixel] = Imath::V3f(sample->indirect);
+    }
+}
+
+// Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
+// smoothing may remove.
+std::vector<bool> noisyShadows(const Pixels& pixels) {
+  const int width = pixels.seen.width, height = pixels.seen.height;
+  std::vector<bool> marked(pixels.middles.size(), false);
+  const auto compare = [&](size_t here, int column, int row) {
+    if (row >= height || (column >= width && !pixels.seen.wraps)) return;
+    const size_t there =
+        static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
+    if (!pixels.middles[there].sharesDirect ||
+        !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
+      return;
+    const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
+                     b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
+    if (apart.length() > tuning::Pictures::kSameLight * (a + b).length() / 2)
+      marked[here] = marked[there] = true;
+  };
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
+      if (!pixels.middles[here].sharesDirect) continue;
+      for (int step = 1; step <= 2; ++step) {
+        compare(here, column + step, row);
+        compare(here, column, row + step);
+      }
+    }
+  return marked;
+}
+
+// Traces the direct light of noisy soft shadows several times. smoothLight() could not distinguish such
+// strong noise from the edge of a shadow, and the edge would become ragged.
+void Painter::repeatDirect(Pixels& pixels) {
+  const std::vector<bool> marked = noisyShadows(pixels);
+  for (int row = 0; row < map_.height(); ++row)
+    for (int column = 0; column < map_.width(); ++column) {
+      const size_t pixel = at(column, row);
+      if (!marked[pixel]) continue;
+      V3d sum(pixels.middles[pixel].direct);
+      int count = 1;
+      for (int repeat = 0; repeat < tuning::Pictures::kRepeats; ++repeat) {
+        const auto sample =
+            look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
+        if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
+        sum += sample->direct;
+        ++count;
+      }
+      pixels.direct.light[pixel] = pixels.middles[pixel].direct = Imath::V3f(sum / count);
+    }
+}
+
+// Marks the pixels that differ visibly from a neighbor.
+std::vector<bool> Painter::uneven(const Raster& raster, double exposure) const {
+  std::vector<bool> marked(map_.count(), false);
+  const auto differ = [&](size_t a, size_t b) {
+    const V3d of = exposure * valueAt(raster, a), other = exposure * valueAt(raster, b);
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(sRgb(std::max(0., of[c])) - sRgb(std::max(0., other[c]))) > tuning::Pictures::kVisible)
+        return true;
+    return false;
+  };
+  for (int row = 0; row < map_.height(); ++row)
+    for (int column = 0; column < map_.width(); ++column) {
+      const size_t here = at(column, row);
+      const auto compare = [&](size_t there) {
+        if (differ(here, there)) marked[here] = marked[there] = true;
+      };
+      if (row + 1 < map_.height()) compare(at(column, row + 1));
+      if (column + 1 < map_.width())
+        compare(here + 1);
+      else if (map_.wraps())
+        compare(at(0, row));
+    }
+  return marked;
+}
+
+// The nearest pixel to this column and row, within one pixel, that shows the surface of the sample.
+std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sample, int column,
+                                     int row) const {
+  constexpr int kOrder[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+  for (const auto& step : kOrder) {
+    int x = column + step[0];
+    const int y = row + step[1];
+    if (map_.wraps()) x = (x + map_.width()) % map_.width();
+    if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) continue;
+    const size_t pixel = at(x, y);
+    if (mayShare(sample.seen, pixels.seen.pixels[pixel], kOfIndirect) &&
+        sample.sharesGloss == pixels.middles[pixel].sharesGloss)
+      return pixel;
+  }
+  return std::nullopt;
+}
+
+// Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels. Empty
+// outside the rim, and where the ray hits a small source.
+std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
+  const double x = column + .5 + tuning::Pictures::kAround[place][0],
+               y = row + .5 + tuning::Pictures::kAround[place][1];
+  const uint64_t seed = streams_.around(at(column, row), place);
+  auto sample = look(x, y, seed, PixelParts::restAlone);
+  if (sample && sample->seen.material != kNone) {
+    if (const auto pixel = alike(pixels, *sample, column, row)) return pixels.complete(*sample, *pixel);
+    sample = look(x, y, seed, PixelParts::all);
+  }
+  return sample ? std::optional(sample->value()) : std::nullopt;
+}
+
+V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
+  const size_t pixel = at(column, row);
+  if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
+  for (size_t place = 0; place < tuning::Pictures::kAround.size(); ++place) {
+    if (place == tuning::Pictures::kCorners && !rays.differ()) break;
+    if (const auto value = around(pixels, column, row, place)) rays.add(*value);
+  }
+  return rays.mean().value_or(pixels.value(pixel));
+}
+
+void Painter::refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster) {
+  const std::vector<bool> marked = uneven(raster, exposure);
+  const double all = std::max<double>(1, static_cast<double>(std::count(marked.begin(), marked.end(), true)));
+  const RaysOfPixel none(exposure, forScreen ? 1 / exposure : std::numeric_limits<double>::infinity());
+  int done = 0;
+  for (int row = 0; row < map_.height(); ++row) {
+    report(kTracingShare + (1 - kTracingShare) * done / (all + 1));
+    for (int column = 0; column < map_.width(); ++column) {
+      if (!marked[at(column, row)]) continue;
+      setValue(raster, at(column, row), average(pixels, column, row, none));
+      ++done;
+    }
+  }
+}
+
+void Painter::addSmallSources(Raster& raster) const {
+  for (const auto& [pixel, spot] : small_.spots) {
+    const double whole = std::max(map_.solidAngle(pixel), spot.solidAngle);
+    setValue(raster, pixel,
+             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
+                 shownRgb(meanRadiance(spot.light, whole).color, sampling_));
+  }
+}
+
+Raster Painter::draw(bool forScreen) {
+  Pixels pixels = tracePixels();
+  smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
+  smoothLight(pixels.seen, kOfGloss, pixels.gloss);
+  gatherWhereUnknown(pixels);
+  repeatDirect(pixels);
+  smoothDirect(pixels);
+  Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
+  for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));
+  const double exposure = exposureOf(raster, map_);
+  refine(pixels, exposure, forScreen, raster);
+  addSmallSources(raster);
+  if (forScreen) toScreen(raster, exposure);
+  return raster;
+}
+
+}  // namespace
+
+Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
+                 const SeenSources& sources, uint64_t seed, bool forScreen, const DrawingProgress& progress) {
+  return Painter(point, map, transport, sources, seed, progress).draw(forScreen);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,94 @@
+#include "pictures/pixel_tracer.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "base/colorimetry.h"
+#include "pictures/tuning.h"
+#include "rays/ray_functions.h"
+
+namespace rsphere {
+namespace {
+
+static_assert(kMaterialTypes == 19, "Do neighboring pixels share its light?");
+// Whether gloss changes little between neighboring pixels: its lobe is wider than a few pixels, and neither a
+// pattern nor a texture varies it.
+bool sharesGloss(const Material& material, const SurfaceHit& hit) {
+  if (hit.perturbation != V3d(0, 0, 0)) return false;
+  if (const auto* opaque = std::get_if<Opaque>(&material))
+    return opaque->roughness >= tuning::Pictures::kLeastRoughness &&
+           (!opaque->metal || hit.pattern == Color(1, 1, 1));
+  const auto* trans = std::get_if<Trans>(&material);
+  return trans && trans->roughness >= tuning::Pictures::kLeastRoughness && hit.pattern == Color(1, 1, 1);
+}
+
+// Whether the light of sources changes little between neighboring pixels except at shadows. Any finer
+// variation is then noise in soft shadows.
+bool sharesDirect(const Material& material, const SurfaceHit& hit) {
+  if (hit.perturbation != V3d(0, 0, 0) || hit.pattern != Color(1, 1, 1)) return false;
+  return std::holds_alternative<Opaque>(material) || std::holds_alternative<Trans>(material);
+}
+
+}  // namespace
+
+// Components are not separated in a participating medium, because the observer sees them before the medium
+// attenuates them.
+PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
+    : point_(point),
+      prepared_(transport.prepared()),
+      tracer_(transport.pathTracer({FirstBounce::gathered})),
+      separates_(isBlack(prepared_.options().medium().extinction) &&
+                 prepared_.lights().ofMists().all().empty()) {}
+
+PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
+  if (!separates_) parts = PixelParts::all;
+  const PixelSample sample = traceOnce(direction, seed, parts);
+  const bool separated = sample.seen.material != kNone;
+  if (!separated && (sample.leftOut.indirect || sample.leftOut.lobes))
+    return traceOnce(direction, seed, PixelParts::all);
+  if (separated && sample.leftOut.lobes && !sample.sharesGloss)
+    return traceOnce(direction, seed, PixelParts::noIndirect);
+  return sample;
+}
+
+PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
+  Radiance indirect, gloss, brought;  // brought: light of all rays that the surface sends out
+  const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
+    const PathContext& ray = end.context;
+    if (ray.depth != 1) return;
+    if (ray.kind & kAmbient) indirect += result.value * ray.contribution;
+    if (ray.kind & kSpecular) gloss += result.value * ray.contribution;
+    if (!(ray.kind & kShadow)) brought += result.value * ray.contribution;
+  };
+  const TracedRay ray = tracer_.trace(point_, direction, 0, seed,
+                                      {.observer = &separate,
+                                       .leavesOutIndirect = parts != PixelParts::all,
+                                       .leavesOutLobes = parts == PixelParts::restAlone});
+  const Hit& hit = ray.firstHit;
+  const SpectralSampling* const sampling = prepared_.options().sampling;
+  PixelSample sample;
+  sample.leftOut = ray.leftOut;
+  sample.shown = ray.shown;
+  sample.rest = shownRgb(ray.value.color, sampling);
+  sample.pattern = shownRgb(ray.pattern, sampling);
+  // Indirect light is divided by the pattern, which is impossible if the pattern is black in a channel.
+  const V3d& pattern = sample.pattern;
+  if (hit.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
+    return sample;
+  const ModifierId id = prepared_.scene().surfaces[hit.surface].material;
+  const Material* const material = prepared_.scene().materialAt(id);
+  if (!material) return sample;
+  sample.sharesGloss = sharesGloss(*material, ray);
+  sample.sharesDirect = sharesDirect(*material, ray);
+  if (!sample.sharesGloss) gloss = {};
+  const Radiance direct = sample.sharesDirect ? ray.value - brought : Radiance();
+  sample.rest = shownRgb((ray.value - indirect - gloss - direct).color, sampling);
+  sample.indirect = shownRgb(indirect.color, sampling) / pattern;
+  sample.gloss = shownRgb(gloss.color, sampling);
+  sample.direct = shownRgb(direct.color, sampling);
+  sample.seen = {id, Imath::V3f(hit.distance * direction), Imath::V3f(hit.normal),
+                 static_cast<float>(hit.distance)};
+  return sample;
+}
+
+}  // namespace rsphere

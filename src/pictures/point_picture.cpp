@@ -1,0 +1,127 @@
+#include "pictures/point_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "image/screen_color.h"
+#include "rad_parser/error.h"
+
+namespace rsphere {
+namespace {
+
+using std::numbers::pi;
+
+}  // namespace
+
+std::optional<V3d> PixelMap::direction(double x, double y) const {
+  if (projection_ == Projection::latitudeLongitude) {
+    const double polar = pi * y / height_, right = 2 * pi * (x / width_ - .5), sine = std::sin(polar);
+    return V3d(sine * std::sin(right), sine * std::cos(right), std::cos(polar));
+  }
+  const double right = 2 * x / width_ - 1, up = 1 - 2 * y / height_, radius = std::hypot(right, up);
+  if (radius > 1) return std::nullopt;
+  const double sine = std::sin(pi * radius), scale = radius > 0 ? sine / radius : 0;
+  return V3d(right * scale, std::cos(pi * radius), up * scale);
+}
+
+size_t PixelMap::pixelOf(const V3d& d) const {
+  double x = 0, y = 0;
+  if (projection_ == Projection::latitudeLongitude) {
+    x = (.5 + std::atan2(d.x, d.y) / (2 * pi)) * width_;
+    y = std::acos(std::clamp(d.z, -1., 1.)) / pi * height_;
+  } else {
+    const double sine = std::hypot(d.x, d.z), radius = std::atan2(sine, d.y) / pi;
+    const double scale = sine > 0 ? radius / sine : 0;
+    x = (1 + d.x * scale) / 2 * width_;
+    y = (1 - d.z * scale) / 2 * height_;
+  }
+  const int column = std::clamp(static_cast<int>(x), 0, width_ - 1),
+            row = std::clamp(static_cast<int>(y), 0, height_ - 1);
+  return static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(column);
+}
+
+double PixelMap::solidAngle(size_t pixel) const {
+  const auto row = static_cast<double>(pixel / static_cast<size_t>(width_)),
+             column = static_cast<double>(pixel % static_cast<size_t>(width_));
+  if (projection_ == Projection::latitudeLongitude)
+    return 2 * pi / width_ * (std::cos(pi * row / height_) - std::cos(pi * (row + 1) / height_));
+  const double radius = std::hypot(2 * (column + .5) / width_ - 1, 2 * (row + .5) / height_ - 1);
+  if (radius > 1) return 0;
+  const double square = 2 * pi / width_ * (2 * pi / height_);
+  return radius > 0 ? square * std::sin(pi * radius) / (pi * radius) : square;
+}
+
+double exposureOf(const Raster& raster, const PixelMap& map) {
+  std::vector<std::pair<double, double>> lit;  // brightness, solid angle
+  double all = 0;
+  for (size_t pixel = 0; pixel < map.count(); ++pixel) {
+    const double b = brightness(Color(valueAt(raster, pixel))), solidAngle = map.solidAngle(pixel);
+    if (!(b > 0) || !(solidAngle > 0)) continue;
+    lit.emplace_back(b, solidAngle);
+    all += solidAngle;
+  }
+  std::sort(lit.begin(), lit.end());
+  double median = 0;
+  for (double sum = 0; const auto& [b, solidAngle] : lit) {
+    median = b;
+    if ((sum += solidAngle) >= all / 2) break;
+  }
+  return median > 0 ? kMidBright / median : 1;
+}
+
+void toScreen(Raster& raster, double exposure) {
+  for (float& p : raster.pixels) p = static_cast<float>(sRgb(std::max(0., exposure * p)));
+}
+
+std::string viewLine(const V3d& p) {
+  return fmt::format("VIEW= -vta -vp {} {} {} -vd 0 1 0 -vu 0 0 1 -vh 360 -vv 360 -vo 0 -va 0 -vs 0 -vl 0\n",
+                     p.x, p.y, p.z);
+}
+
+namespace {
+
+// Inserts %d before the suffix of the pattern.
+std::string withNumber(std::string pattern) {
+  const size_t folder = pattern.rfind('/') + 1, dot = pattern.rfind('.');
+  return pattern.insert(dot == std::string::npos || dot < folder ? pattern.size() : dot, "%d");
+}
+
+}  // namespace
+
+std::string pictureName(const std::string& pattern, uint64_t record) {
+  std::string name;
+  bool numbered = false;
+  for (size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '%') {
+      name += pattern[i];
+      continue;
+    }
+    const size_t end = pattern.find_first_not_of("0123456789", i + 1);
+    const size_t digits = end == std::string::npos ? 0 : end - i - 1;
+    if (end == i + 1 && pattern[end] == '%') {
+      name += '%';
+    } else if (end != std::string::npos && digits <= 3 && pattern[end] == 'd' && !numbered) {
+      const bool zeros = digits > 0 && pattern[i + 1] == '0';
+      const size_t width = digits > 0 ? std::stoul(pattern.substr(i + 1, digits)) : 0;
+      const std::string number = std::to_string(record);
+      name.append(width > number.size() ? width - number.size() : 0, zeros ? '0' : ' ');
+      name += number;
+      numbered = true;
+    } else {
+      throw rad::Error(fmt::format("picture \"{}\": % stands for one %d, %4d or %04d, or %%", pattern));
+    }
+    i = end;
+  }
+  if (!numbered && record > 0)
+    throw rad::Error(
+        fmt::format("picture \"{}\": its name needs a %d for the number of record {}, as in \"{}\"", pattern,
+                    record, withNumber(pattern)));
+  return name;
+}
+
+}  // namespace rsphere

@@ -1,0 +1,78 @@
+#pragma once
+// Pictures of the view from a point in all directions: projections, exposure and names. draw_point.h draws
+// them.
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "image/picture_file.h"
+#include "pictures/tuning.h"
+#include "scene/scene.h"
+
+namespace rsphere {
+
+// The projection of directions onto a picture.
+enum class Projection {
+  // The sphere as seen from within: +y is in the middle, +x to its right at a quarter of the width, -y at
+  // both edges. Columns are even steps of azimuth; rows descend from the zenith +z to the nadir.
+  latitudeLongitude,
+  // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
+  // from +y is proportional to the distance from the middle, and reaches pi at the rim. The corners are
+  // black.
+  angularFisheye
+};
+
+class PixelMap {
+ public:
+  PixelMap(Projection projection, int width, int height)
+      : projection_(projection), width_(width), height_(height) {}
+  // With about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye).
+  explicit PixelMap(Projection projection)
+      : PixelMap(projection, projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 1024,
+                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 512) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool wraps() const { return projection_ == Projection::latitudeLongitude; }
+  size_t count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
+
+  // The direction (unit, world) at a position in pixels from the upper left corner of the picture. The
+  // middles of pixels have half-integer coordinates. Empty outside the rim.
+  std::optional<V3d> direction(double x, double y) const;
+  // The pixel that shows a direction (unit); pixels are numbered row by row.
+  size_t pixelOf(const V3d& direction) const;
+  // The solid angle of a pixel, sr: exact for latitudeLongitude, to first order in the pixel's width for
+  // angularFisheye; 0 outside the rim.
+  double solidAngle(size_t pixel) const;
+
+ private:
+  Projection projection_;
+  int width_, height_;
+};
+
+inline V3d valueAt(const Raster& raster, size_t pixel) {
+  const float* p = raster.pixels.data() + 3 * pixel;
+  return V3d(p[0], p[1], p[2]);
+}
+
+inline void setValue(Raster& raster, size_t pixel, const V3d& value) {
+  for (int c = 0; c < 3; ++c)
+    raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
+}
+
+// The exposure at which the median brightness of all pixels that are not black, weighted by solid angle,
+// becomes .5 in sRGB. A room is then visible however bright its sources are.
+double exposureOf(const Raster& raster, const PixelMap& map);
+
+// Converts radiance to screen colors.
+void toScreen(Raster& raster, double exposure);
+
+// The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws
+// rad::Error if there is any other %, or if a record after the first has no %d, because its picture would
+// overwrite the previous one.
+std::string pictureName(const std::string& pattern, uint64_t record);
+
+// The header line of a RADIANCE picture that describes the angular fisheye view, including its line end.
+std::string viewLine(const V3d& point);
+
+}  // namespace rsphere

@@ -1,0 +1,36 @@
+#include "points/base_set.h"
+
+#include <numbers>
+
+#include "rad_parser/error.h"
+#include "sphere/directions.h"
+
+namespace rsphere {
+
+BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors) {
+  const auto count = static_cast<size_t>(options.baseDirections);
+  BaseSet base{rotatedDirections(baseDirections(count), options.rotation), {}, std::nullopt, sampling};
+  base.zones = options.bins;
+  if (!base.zones && options.zones > 0)
+    base.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
+  const bool equal = options.weights == Weights::homogeneous;
+  if (equal) base.solidAngles.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
+  if (equal && !standardErrors && !options.verify) return base;
+  VoronoiWorkspace workspace;
+  const auto areas = cellSolidAngles(base.directions, workspace);
+  if (!equal) base.solidAngles.assign(areas.begin(), areas.end());
+  if (standardErrors) base.neighbours = neighboursOf(workspace);
+  if (options.verify) checkCells(workspace);
+  return base;
+}
+
+Neighbours neighboursOf(const VoronoiWorkspace& workspace) {
+  VoronoiCells cells = voronoiCells(workspace);
+  return {std::move(cells.first), std::move(cells.neighbour)};
+}
+
+void checkCells(const VoronoiWorkspace& workspace) {
+  if (const auto fault = voronoiFault(workspace)) throw rad::Error("weights of the directions: " + *fault);
+}
+
+}  // namespace rsphere

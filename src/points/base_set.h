@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "points/error_estimate.h"
+#include "points/sphere_options.h"
+#include "sphere/direction_bins.h"
+#include "sphere/voronoi.h"
+
+namespace rsphere {
+
+// Evenly spread directions, the same at all points. Every strategy (-Sw) uses them.
+struct BaseSet {
+  std::vector<V3d> directions;                   // unit, world
+  std::vector<double> solidAngles;               // solid angles that the directions represent, sr
+  std::optional<Neighbours> neighbours;          // empty unless standard errors are requested
+  const SpectralSampling* sampling;              // the run's: RayOptions::sampling
+  std::shared_ptr<const DirectionBins> zones{};  // zones of -Sz or bins; null: not requested
+};
+
+// Makes -Sn directions, rotated by -Sr. With -Sw h all have the same solid angle, otherwise that of their
+// Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
+BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
+
+// The pairs of directions whose Voronoi cells share a side, in the last query of the workspace.
+Neighbours neighboursOf(const VoronoiWorkspace& workspace);
+
+// Throws rad::Error if the cells of the workspace's last query are wrong (voronoiFault).
+void checkCells(const VoronoiWorkspace& workspace);
+
+}  // namespace rsphere

@@ -1,0 +1,116 @@
+#pragma once
+// Estimates the variance of a mean from the samples of one set of directions, without the light that glances
+// have found, whose variance is estimated with it. Parameters of all functions: sampling is
+// RayOptions::sampling; the variance of each zone is added to `to`, which is null without zones.
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/colorimetry.h"
+#include "points/direction_sample.h"
+#include "silhouettes/seen_sources.h"
+#include "sphere/direction_bins.h"
+
+namespace rsphere {
+
+// Variance of an integral of radiance, (W/m2)^2, for each channel or band, and for the brightness (in a
+// spectral run, the photopic integral). The variance of the brightness is separate, because it does not
+// follow from those of the channels, whose errors are correlated.
+struct Variance {
+  Color channels{0, 0, 0};
+  double brightness = 0;
+
+  // The square of one error.
+  static Variance of(const Irradiance& error, const SpectralSampling* sampling) {
+    const double b = photopicOf(error.color, sampling);
+    return {error.color * error.color, b * b};
+  }
+  Variance& operator+=(const Variance& v) {
+    channels += v.channels;
+    brightness += v.brightness;
+    return *this;
+  }
+  Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
+};
+
+// The error due to light vertices, which all directions of a point, and all points, have in common.
+struct SharedError {
+  std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: no light vertices
+  Variance chosen;                  // part of the batches' spread, due to choosing vertices at random
+
+  void add(const SharedError& other, double share);
+};
+// The variance of the shared error, from the differences between batches.
+Variance sharedVariance(const SharedError& error, const SpectralSampling* sampling);
+// The variance of the shared error plus that of the directions, `own`. The sum is at least a fraction of the
+// spread of the batches (tuning::ErrorEstimate::kLeastShared).
+Variance varianceWith(const SharedError& error, Variance own, const SpectralSampling* sampling);
+
+// The variances of zones of directions (-Sz).
+struct ZoneVariances {
+  const DirectionBins* zones = nullptr;  // null: there are none
+  std::vector<Variance> all;
+
+  explicit ZoneVariances(const DirectionBins* by = nullptr) : zones(by), all(by ? by->count() : 0) {}
+  // Adds the variance of one direction's contribution. cell: as for Moments::add().
+  void add(const V3d& direction, double cell, const Variance& variance);
+  void add(const ZoneVariances& other, double factor);
+};
+
+// Null if there are no zones.
+inline ZoneVariances* zonesOf(ZoneVariances& variances) { return variances.zones ? &variances : nullptr; }
+
+// The neighbours of each direction. Those of direction i are neighbour[first[i]] to neighbour[first[i + 1] -
+// 1].
+struct Neighbours {
+  std::vector<uint32_t> first, neighbour;
+};
+
+// Variance of the sum of solid angle times radiance over evenly spread directions. Each contributes its solid
+// angle times the second difference of radiance: its difference to the mean of its neighbours, minus the mean
+// of the neighbours' differences. This contains the noise of paths and the error at edges, but not smooth
+// variation, which an even set integrates accurately. An even set also averages out part of the error at
+// edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0, the factor is 1 for
+// directions with few neighbours, because a single one may find much light there, such as a lamp mirrored in
+// a chrome column. Neighbours in the same region are compared if there are any: the edge of a region adds no
+// error, because cells end there. Directions in kNoRegion are left out.
+Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
+                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+
+// The same for dynamic directions to one target, whose places in it are the first points of evenly(). Each is
+// compared with the nearest of them. An edge, such as that of a window in a mirror, then counts only where it
+// passes between neighbours. Slats that are finer than the distance of neighbours count as noise.
+Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
+                         const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+
+// The same for dynamic directions to several targets that show parts of one image of a source. The result is
+// the variance of independent directions, reduced for even spreading. There is no reduction where few
+// directions find most of the light, such as that of a lamp that is mirrored twice.
+Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
+
+// The same for a target with a single dynamic direction. It is compared with the base directions in its
+// region; if there are none, its whole contribution is the error.
+Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
+                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+
+// Variance due to occluders that no direction has hit, in regions other than 0. In each region, an occluder
+// is assumed that hides half of the solid angle that one more direction would represent. Otherwise the stated
+// error of an opening's light would be 0 whenever all of the few directions sent to it see the same sky. The
+// assumed occluder also hides light that was found by glances.
+Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
+
+// The variance of the samples of one image of a light source, in the order of its grid. It is computed from
+// differences between adjacent cells, because occluded cells lie together.
+Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                       ZoneVariances* to = nullptr);
+
+// The variance due to sampling a random subset of the images, if there are more images than samples. It is
+// computed from differences between images that are sampled in succession. samples: of all images.
+Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
+                        ZoneVariances* to = nullptr);
+
+}  // namespace rsphere

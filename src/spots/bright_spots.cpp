@@ -1,0 +1,304 @@
+#include "spots/bright_spots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/frame.h"
+#include "base/vector_widths.h"
+#include "openings/panes.h"
+#include "spots/light_particles.h"
+#include "spots/tuning.h"
+
+namespace rsphere {
+namespace {
+
+// Lower bound on the squared sine of a spot's angular radius. In single precision, smaller spots cannot be
+// distinguished from points.
+constexpr float kNarrowest = 1e-6f;
+
+// Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only the
+// relative power of spots matters.
+constexpr double kTransmittance = .9;
+
+// The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
+constexpr size_t kFewest = 12;
+
+// Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n evenly
+// distributed points is smaller than the region that contains them, on average by (n - 1) / (n + 1). For the
+// fewest particles the correction is 1.18.
+constexpr double kWider = 1.15;
+
+// No rays are aimed at a spot if the squared distance to its center is below this number of squared radii. At
+// that distance, the formula for a small surface makes a disk 1.5 times as bright as it is: it uses 1 / d^2
+// instead of 1 / (d^2 + r^2).
+constexpr float kApart = 2;
+
+// Surface area of a room, divided by the square of the mean distance across it. The mean chord of a convex
+// body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
+constexpr double kRoomSurface = 20;
+
+V3d onDisk(const V3d& normal, double radius, double angle) {
+  V3d x, y;
+  frame(normal, x, y);
+  return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
+}
+
+// 1 - cosine of the angle with this squared sine, without loss of precision for small angles.
+double versineOf(double sine2) { return sine2 / (1 + std::sqrt(1 - sine2)); }
+
+}  // namespace
+
+// A place where light from a source hit a diffuse surface.
+struct BrightSpots::Particle {
+  V3d point, normal;
+  double power;  // reflected
+  double free;   // distance to the next surface in a random direction
+};
+
+// A group of neighbouring particles, and the spot that they form.
+struct BrightSpots::Node {
+  std::span<Particle> particles;
+  Box3d box;  // around the particles
+  Spot spot;
+  double area = 0;
+  double samePlace;  // Scene::samePlace
+
+  Node(std::span<Particle> some, double same) : particles(some), samePlace(same) {
+    for (const Particle& p : some) box.extendBy(p.point);
+    std::array<double, 3> sides{box.size().x, box.size().y, box.size().z};
+    std::sort(sides.begin(), sides.end());
+    area = std::max(sides[1], samePlace) * std::max(sides[2], samePlace);
+    spot.center = box.center();
+    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * samePlace);
+    for (const Particle& p : some) {
+      if (p.free < spot.radius) continue;  // in a narrow gap, whose light reaches no other surface
+      spot.power += p.power;
+      spot.normal += p.normal * p.power;
+    }
+    if (spot.power > 0) spot.normal /= spot.power;
+  }
+  Sunlit sunlit() const {
+    Sunlit found{box, spot.normal, spot.power / (kPi * area), {}};
+    for (size_t i = 0; i < found.places.size(); ++i)
+      found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
+    return found;
+  }
+  // The product of the light that the spot reflects and its brightness. Aiming at spots of higher worth
+  // reduces the variance more.
+  double worth() const { return spot.power * spot.power / area; }
+  std::pair<Node, Node> halves() const {
+    const auto axis = static_cast<int>(box.majorAxis());
+    const size_t half = particles.size() / 2;
+    std::nth_element(particles.begin(), particles.begin() + static_cast<ptrdiff_t>(half), particles.end(),
+                     [axis](const Particle& a, const Particle& b) { return a.point[axis] < b.point[axis]; });
+    return {Node(particles.first(half), samePlace), Node(particles.subspan(half), samePlace)};
+  }
+};
+
+static_assert(kMaterialTypes == 19, "Is it a pane that light passes?");
+// Follows a particle to the first diffuse surface, through panes; empty if it reaches none.
+std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, const Tracer& tracer,
+                                                          const V3d& origin, const V3d& direction,
+                                                          double power, Random& random) {
+  const auto last = beyondPanes(scene, tracer, origin, direction, [&](const Surface& surface) {
+    if (!std::holds_alternative<Glass>(*scene.materialOf(surface))) return false;
+    power *= kTransmittance;
+    return true;
+  });
+  if (!last || last->hit.surface == kNone) return {};
+  const Hit& hit = last->hit;
+  const auto diffuse = diffuseReflection(*scene.materialOf(scene.surfaces[hit.surface]));
+  if (!diffuse) return {};
+  power *= brightness(diffuse->color) * diffuse->share;
+  const V3d point = last->origin + hit.distance * direction,
+            front = hit.cosine < 0 ? -hit.normal : hit.normal;
+  const V3d back = sentFrom(front, random);
+  return Particle{point, front, power, tracer.nearest(point, back, kFarAway, hit.surface).distance};
+}
+
+// Traces particles from distant sources through the openings, from their bright side to their dark side.
+std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings& openings, const Scene& scene,
+                                                                 const Tracer& tracer,
+                                                                 const LightSources& lights) const {
+  std::vector<Particle> found;
+  Random random(1);
+  for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
+    const Surface& surface = scene.surfaces[light.surface];
+    const auto* distant = surface.shape.as<Distant>();
+    const double radiance = brightness(sourceRadiance(scene, surface));
+    if (!distant || !(radiance > 0)) continue;
+    const V3d direction = -distant->direction;
+    const double all = areaTowards(openings.all(), direction);
+    if (!(all > 0)) continue;
+    const double each = radiance * distant->solidAngle * all / tuning::BrightSpots::kParticles;
+    for (int i = 0; i < tuning::BrightSpots::kParticles; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d in = pointTowards(openings.all(), direction, u1, u2, u3);
+      if (tracer.nearest(in, -direction).surface != kNone) continue;
+      if (const auto particle = arrived(scene, tracer, in, direction, each, random))
+        found.push_back(*particle);
+    }
+  }
+  return found;
+}
+
+std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, const Tracer& tracer,
+                                                          const LightSources& lights) const {
+  std::vector<Particle> found;
+  sendParticles(scene, tracer, lights, tuning::BrightSpots::kParticles,
+                [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
+                  if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
+                    found.push_back(*particle);
+                });
+  return found;
+}
+
+BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+                         const Openings* openings)
+    : samePlace_(scene.samePlace) {
+  if (tracer.bounds().isEmpty()) return;
+  spots_.origin = tracer.bounds().center();
+  if (openings) {
+    std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
+    std::vector<double> free;
+    for (const Particle& p : inside) free.push_back(p.free);
+    if (free.size() >= kFewest) {
+      const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
+      std::nth_element(free.begin(), middle, free.end());
+      for (const Node& node : find(inside, kRoomSurface * *middle * *middle, tuning::Caps::kAimed / 2,
+                                   tuning::BrightSpots::kBrighter / 2, 1))
+        sunlit_.push_back(node.sunlit());
+    }
+  }
+  std::vector<Particle> everywhere = particles(scene, tracer, lights);
+  find(everywhere, scene.area(), tuning::Caps::kAimed, tuning::BrightSpots::kBrighter,
+       tuning::BrightSpots::kBrighter);
+}
+
+std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double area, size_t most,
+                                                 double brighter, double leastWorth) {
+  double power = 0;
+  for (const Particle& p : all) power += p.power;
+  if (!(power > 0) || !(area > 0)) return {};
+  const double usual = power / area;
+
+  // Particles are halved recursively down to the smallest groups. Then the group to divide next is the one
+  // whose worth grows most if it is divided down to the smallest groups. The growth by a single division
+  // would be misleading: dividing a room in half gains almost nothing until the spot of its lamp is isolated.
+  struct Branch {
+    Node node;
+    double finest = 0;  // the worth of all the smallest groups in it
+    size_t halves = 0;  // index of the first of the two; 0 if there are none
+    double gain() const { return halves > 0 ? finest - node.worth() : 0; }
+  };
+  std::vector<Branch> tree{{Node(all, samePlace_)}};
+  for (size_t i = 0; i < tree.size(); ++i) {
+    if (tree[i].node.particles.size() < 2 * kFewest) continue;
+    auto halves = tree[i].node.halves();
+    tree[i].halves = tree.size();
+    tree.push_back({std::move(halves.first)});
+    tree.push_back({std::move(halves.second)});  // total worth of the smallest groups in it
+  }                                              // index of the first of its two halves; 0: not divided
+  for (size_t i = tree.size(); i-- > 0;) {
+    const size_t halves = tree[i].halves;
+    tree[i].finest = halves > 0 ? tree[halves].finest + tree[halves + 1].finest : tree[i].node.worth();
+  }
+  std::vector<const Branch*> chosen{&tree.front()};
+  while (spots_.count + chosen.size() < most) {
+    const auto best = std::max_element(
+        chosen.begin(), chosen.end(), [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
+    if (!((*best)->gain() > 0)) break;
+    const Branch* halves = &tree[(*best)->halves];
+    *best = halves;
+    chosen.push_back(halves + 1);
+  }
+  std::vector<Node> nodes;
+  for (const Branch* branch : chosen) nodes.push_back(branch->node);
+  std::erase_if(nodes, [&](const Node& node) { return !(node.spot.power > brighter * usual * node.area); });
+  double worth = 0;
+  for (const Node& node : nodes) worth += node.worth();
+  if (!(worth > leastWorth * usual * power)) return {};
+  if (empty()) usual_ = usual / kPi;
+  for (const Node& node : nodes) keep(node.spot);
+  return nodes;
+}
+
+void BrightSpots::keep(const Spot& spot) {
+  const size_t i = spots_.count++;
+  const V3d center = spot.center - spots_.origin;
+  spots_.x[i] = static_cast<float>(center.x);
+  spots_.y[i] = static_cast<float>(center.y);
+  spots_.z[i] = static_cast<float>(center.z);
+  spots_.normalX[i] = static_cast<float>(spot.normal.x);
+  spots_.normalY[i] = static_cast<float>(spot.normal.y);
+  spots_.normalZ[i] = static_cast<float>(spot.normal.z);
+  spots_.radius[i] = static_cast<float>(spot.radius);
+  spots_.anyway[i] = static_cast<float>(1 - spot.normal.length() + tuning::Highlights::kEdgeOn);
+  spots_.power[i] = static_cast<float>(spot.power);
+}
+
+// A spot is treated as a small flat surface with the spot's normal. Spots that contain the point or are near
+// it are ignored.
+RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& front, Aim& aim) const {
+  const auto atX = static_cast<float>(point.x - spots_.origin.x),
+             atY = static_cast<float>(point.y - spots_.origin.y),
+             atZ = static_cast<float>(point.z - spots_.origin.z);
+  const auto frontX = static_cast<float>(front.x), frontY = static_cast<float>(front.y),
+             frontZ = static_cast<float>(front.z);
+  const auto negligible = static_cast<float>(samePlace_ * samePlace_);  // so that no squared distance is 0
+  Spots::Numbers comes;
+  for (size_t i = 0; i < spots_.count; ++i) {
+    const float x = spots_.x[i] - atX, y = spots_.y[i] - atY, z = spots_.z[i] - atZ;
+    const float squared = x * x + y * y + z * z + negligible, inverse = 1 / std::sqrt(squared);
+    const float cosine = (x * frontX + y * frontY + z * frontZ + spots_.radius[i]) * inverse;
+    const float facing =
+        spots_.anyway[i] - (x * spots_.normalX[i] + y * spots_.normalY[i] + z * spots_.normalZ[i]) * inverse;
+    const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
+    const float apart = squared > kApart * spots_.radius[i] * spots_.radius[i] ? 1.f : 0.f;
+    comes[i] = apart * spots_.power[i] * before * seen * inverse * inverse;
+    aim.x[i] = x;
+    aim.y[i] = y;
+    aim.z[i] = z;
+    const float sine2 = spots_.radius[i] * spots_.radius[i] * inverse * inverse;
+    aim.sine2[i] = std::max(sine2, kNarrowest);
+    aim.squared[i] = squared;
+  }
+  float sum = 0;
+  for (size_t i = 0; i < spots_.count; ++i) aim.sum[i] = sum += comes[i];
+  aim.count = spots_.count;
+  aim.mean = sum / (kPi * kPi);
+}
+
+V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
+  // Below 1 in single precision too: with 1, the last spot would be chosen even if it contributes nothing
+  // because it contains the point. There are no directions to such a spot.
+  const float due = std::min(static_cast<float>(u1), 1 - 0x1p-24f) * aim.sum[aim.count - 1];
+  size_t i = 0;
+  while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
+  const V3d axis = V3d(aim.x[i], aim.y[i], aim.z[i]).normalized();
+  const double versine = u2 * versineOf(aim.sine2[i]);
+  return onDisk(axis, std::sqrt(versine * (2 - versine)), 2 * kPi * u3) + (1 - versine) * axis;
+}
+
+RSPHERE_FOR_WIDTHS("avx2") double BrightSpots::density(const Aim& aim, const V3d& direction) const {
+  const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
+             dz = static_cast<float>(direction.z);
+  std::array<bool, kRoom> in;
+  for (size_t i = 0; i < aim.count; ++i) {
+    const float x = aim.x[i], y = aim.y[i], z = aim.z[i];
+    // The cross product is precise for small angles; the cosine is not.
+    const float cx = y * dz - z * dy, cy = z * dx - x * dz, cz = x * dy - y * dx;
+    in[i] = (cx * cx + cy * cy + cz * cz <= aim.sine2[i] * aim.squared[i]) & (x * dx + y * dy + z * dz > 0);
+  }
+  double sum = 0;
+  for (size_t i = 0; i < aim.count; ++i) {
+    const double chance = i > 0 ? aim.sum[i] - aim.sum[i - 1] : aim.sum[i];
+    if (!in[i] || !(chance > 0)) continue;
+    sum += chance / (2 * kPi * versineOf(aim.sine2[i]));
+  }
+  return sum / aim.sum[aim.count - 1];
+}
+
+}  // namespace rsphere

@@ -1,0 +1,72 @@
+#pragma once
+// Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed
+// (ball_highlights.h, cylinder_highlights.h).
+
+#include "spots/ball_highlights.h"
+#include "spots/cylinder_highlights.h"
+#include "spots/tuning.h"
+
+namespace rsphere {
+
+class Highlights {
+ public:
+  // Keeps a reference to lights.
+  Highlights(const Scene& scene, const Tracer& tracer, const LightSources& lights)
+      : usual_(anyOn(scene) ? usualRadiance(scene, tracer, lights) : 0),
+        balls_(scene, tracer, lights, least(usual_)),
+        cylinders_(scene, tracer, lights, least(usual_)) {}
+
+  bool empty() const { return balls_.empty() && cylinders_.empty(); }
+  // An estimate of the mean brightness (W/sr/m2) of all surfaces under the light of the sources.
+  double usual() const { return usual_; }
+
+  // The sampling distribution for a point of a diffuse surface.
+  struct Aim {
+    double mean = 0;  // mean radiance over the hemisphere from these highlights, W/sr/m2, without occlusion
+    BallHighlights::Aim balls;
+    CylinderHighlights::Aim cylinders;
+  };
+
+  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2); highlights that add little
+  // variance relative to it are ignored. rays: number of rays of the gather. If there are few, only the
+  // brightest balls are used, because finding highlights takes as long as tracing some rays.
+  void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
+    const bool few = rays < tuning::Highlights::kMany;
+    balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
+    if (!few) cylinders_.aim(point, front, least(all), aim.cylinders);
+    aim.mean = aim.balls.mean + aim.cylinders.mean;
+  }
+
+  // A direction towards a highlight (unit); u1, u2, u3: uniform in [0, 1). 0 if the sampled direction misses
+  // the highlight. REQUIRES aim.mean > 0.
+  V3d sample(const Aim& aim, double u1, double u2, double u3) const {
+    const double toBalls = aim.balls.mean / aim.mean;
+    if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);
+    return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
+  }
+
+  // The density of the directions from sample(), per sr. It integrates to less than 1, because some of them
+  // miss the highlight.
+  double density(const Aim& aim, const V3d& direction) const {
+    double sum = 0;
+    if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);
+    if (aim.cylinders.mean > 0) sum += aim.cylinders.mean * cylinders_.density(aim.cylinders, direction);
+    return sum / aim.mean;
+  }
+
+ private:
+  static_assert(kShapes == 8, "Do highlights of a new shape need directions?");
+  static bool anyOn(const Scene& scene) {
+    for (const Surface& surface : scene.outermost())
+      if ((surface.shape.as<Sphere>() || surface.shape.as<Cone>()) && roughReflector(scene, surface))
+        return true;
+    return false;
+  }
+  static double least(double radiance) { return tuning::Highlights::kLeast * radiance * radiance; }
+
+  double usual_;
+  BallHighlights balls_;
+  CylinderHighlights cylinders_;
+};
+
+}  // namespace rsphere

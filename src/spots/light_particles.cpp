@@ -1,0 +1,56 @@
+#include "spots/light_particles.h"
+
+#include <cmath>
+#include <vector>
+
+#include "base/constants.h"
+#include "light/surface_point.h"
+
+namespace rsphere {
+
+double powerOf(const Scene& scene, const LightSource& light, double reach) {
+  const Surface& surface = scene.surfaces[light.surface];
+  const auto* distant = surface.shape.as<Distant>();
+  return brightness(sourceRadiance(scene, surface)) * kPi *
+         (distant ? distant->solidAngle * reach * reach : areaOf(surface.shape, scene.vertices));
+}
+
+void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
+                   SentParticle each) {
+  const V3d middle = tracer.bounds().center();
+  const double reach = tracer.bounds().size().length() / 2;
+  struct Sender {
+    SurfaceId surface;
+    double power;
+  };
+  std::vector<Sender> senders;
+  double all = 0;
+  for (const LightSource& light : lights.all()) {
+    if (light.isVirtual()) continue;
+    const double power = powerOf(scene, light, reach);
+    if (!(power > 0)) continue;
+    senders.push_back({light.surface, power});
+    all += power;
+  }
+  Random random(mixBits(senders.size()));
+  const double one = all / count;
+  double due = random.uniform();
+  for (const Sender& sender : senders)
+    for (due += sender.power / one; due >= 1; --due) {
+      V3d origin, direction;
+      if (const auto* distant = scene.surfaces[sender.surface].shape.as<Distant>()) {
+        const double radius = reach * std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
+        direction = -distant->direction;
+        V3d x, y;
+        frame(direction, x, y);
+        origin = middle + radius * std::cos(angle) * x + radius * std::sin(angle) * y - 2 * reach * direction;
+      } else {
+        const SurfacePoint at = samplePoint(scene.surfaces[sender.surface].shape, scene.vertices, random);
+        direction = sentFrom(at.normal, random);
+        origin = at.point + 2 * scene.samePlace * at.normal;
+      }
+      each(origin, direction, one, scene.surfaces[sender.surface], random);
+    }
+}
+
+}  // namespace rsphere

@@ -1,0 +1,32 @@
+#pragma once
+// Particles that carry light from the sources of a scene, all with the same power.
+#include "base/function_ref.h"
+#include "base/random.h"
+#include "light/sources.h"
+#include "shade/scattering.h"
+#include "trace/tracer.h"
+
+namespace rsphere {
+
+// Called for each emitted particle: its origin (world), direction (unit), power (W, of brightness) and the
+// source's surface. `random` continues its stream of random numbers.
+using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, double power,
+                                      const Surface& source, Random& random)>;
+
+// The power of a real source (W, of brightness). reach: half the diagonal of the scene's bounds (world
+// units). The power of a distant source is the power that enters a disk with this radius.
+double powerOf(const Scene& scene, const LightSource& light, double reach);
+
+// Sends about `count` particles from all real sources; the number from each is proportional to its power.
+// Particles of distant sources start outside the scene. The particles depend only on the scene.
+void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
+                   SentParticle each);
+
+// A random direction (unit) on the front side, distributed like diffusely reflected light.
+template <class Numbers>
+V3d sentFrom(const V3d& normal, Numbers& random) {
+  const double u1 = random.uniform(), u2 = random.uniform();
+  return diffuseDirection(normal, u1, u2);
+}
+
+}  // namespace rsphere

@@ -1,0 +1,44 @@
+#include "targets/cells_in_targets.h"
+
+#include "targets/tuning.h"
+
+namespace rsphere {
+namespace {
+
+void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
+  std::vector<double> factors(targets.all().size() + 1);
+  for (const CellInTarget& cell : cells) factors[cell.fitted] += cell.solidAngle;
+  factors[0] = 1;
+  for (size_t i = 1; i < factors.size(); ++i)
+    if (factors[i] > 0) factors[i] = targets.all()[i - 1].silhouette.regionSolidAngle() / factors[i];
+  for (CellInTarget& cell : cells) cell.solidAngle *= factors[cell.fitted];
+}
+
+void scale(std::vector<CellInTarget>& cells, double total) {
+  double inside = 0, outside = 0;
+  size_t countOutside = 0;
+  for (const CellInTarget& cell : cells) {
+    if (!cell.enters) continue;
+    (cell.fitted == 0 ? outside : inside) += cell.solidAngle;
+    if (cell.fitted == 0) ++countOutside;
+  }
+  const double left = total - inside;
+  const bool byOutside = left > 0 && countOutside >= tuning::Targets::kFewestFitted;
+  const double all = inside + outside;
+  const double factor = byOutside ? left / outside : all > 0 ? total / all : 0;
+  for (CellInTarget& cell : cells)
+    if (!byOutside || cell.fitted == 0) cell.solidAngle *= factor;
+}
+
+}  // namespace
+
+std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total) {
+  fit(cells, targets);
+  scale(cells, total);
+  std::vector<double> solidAngles;
+  solidAngles.reserve(cells.size());
+  for (const CellInTarget& cell : cells) solidAngles.push_back(cell.enters ? cell.solidAngle : 0);
+  return solidAngles;
+}
+
+}  // namespace rsphere

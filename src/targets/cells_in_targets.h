@@ -1,0 +1,26 @@
+#pragma once
+// Solid angles of the directions at one point, for -Sw c. Inside a target, the cell of a direction is the
+// inverse of the density (1/sr) of all directions there.
+#include <cstdint>
+#include <vector>
+
+#include "targets/targets.h"
+
+namespace rsphere {
+
+// The cell of one direction.
+struct CellInTarget {
+  double solidAngle = 0;  // sr
+  uint32_t fitted = 0;    // Targets::Region::fitted at the direction
+  bool enters = true;     // whether the direction enters the mean
+};
+
+// The solid angles (sr) with which the directions enter the mean, in the same order; 0 for those that do not.
+// The cells are scaled in two steps:
+// - In each fitted target, cells are scaled so that they add up to its solid angle. This removes the error
+//   due to the random number of directions inside the target, and to cells that its edge divides.
+// - All cells that enter the mean are scaled to add up to `total` (sr). Only cells outside the fitted targets
+//   change, unless these are fewer than tuning::Targets::kFewestFitted.
+std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
+
+}  // namespace rsphere

@@ -1,0 +1,80 @@
+#pragma once
+// Chooses the regions of the sphere that get extra directions at a point, and how many.
+#include <span>
+#include <vector>
+
+#include "openings/openings.h"
+#include "points/direction_sample.h"
+#include "silhouettes/silhouette_index.h"
+#include "spots/bright_spots.h"
+#include "targets/contrasts.h"
+#include "targets/glints.h"
+#include "targets/mirrored_openings.h"
+
+namespace rsphere {
+
+// A region of the sphere of directions that gets extra directions. Examples are the silhouette of a special
+// object (special_objects.h), and that of the image of a light source in a special object.
+struct Target {
+  Silhouette silhouette;
+  double density = 0;      // extra directions per sr of its region
+  double expected = 0;     // expected number of extra directions
+  bool continues = false;  // part of the same image as the target before it
+  // Whether cells are fitted to its solid angle (cells_in_targets.h). Fitted targets do not overlap.
+  bool fitted = false;
+  // Whether cells end at its edge, so that the edge adds no variance. This is so if the target is fitted, or
+  // gets more extra directions than base directions.
+  bool hasOwnEdge = false;
+};
+
+// The targets of one point.
+class Targets {
+ public:
+  explicit Targets(std::vector<Target> targets);
+
+  std::span<const Target> all() const { return targets_; }
+
+  // The targets that contain a direction (unit).
+  struct Region {
+    double density = 0;   // of their extra directions there, per sr
+    RegionId id = 0;      // identifies the combination of targets with hasOwnEdge; 0: none of these
+    uint32_t fitted = 0;  // 1 + the position in all() of the fitted target; 0: none is fitted
+  };
+  Region regionAt(const V3d& direction) const;
+
+ private:
+  std::vector<Target> targets_;
+  SilhouetteIndex index_;  // of targets_, by position
+};
+
+// Chooses the targets at any point. Shared by all threads; keeps references to the prepared scene and to
+// bright spots.
+class TargetChoice {
+ public:
+  // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
+  // densityFactor: -Sk.
+  TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
+               const SeenSources& sources, double densityFactor);
+
+  // The targets at a point (world): special objects, images of light sources in them, openings that show
+  // daylight (openings/openings.h) and their images in mirrors, and visible spots of daylight
+  // (spots/bright_spots.h). The density on a target is in proportion to the standard deviation of its
+  // radiance (Neyman's allocation), relative to the base directions, whose density is assumed to be optimal
+  // elsewhere. If that takes more than `most` extra directions on average, all densities are reduced by the
+  // same factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
+  Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
+
+ private:
+  const PreparedScene& prepared_;
+  std::span<const BrightSpots::Sunlit> sunlit_;
+  std::vector<Openings::View> openings_;  // openings without special objects in them
+  // By index in contrasts_.objects(): the mean radiance (W/sr/m2) of the opening that contains the object, as
+  // seen from the dark side; 0 if no opening contains it.
+  std::vector<double> radiances_;
+  double densityFactor_;
+  Contrasts contrasts_;
+  Glints glints_;
+  const OpeningImages* images_;  // null: none
+};
+
+}  // namespace rsphere

@@ -1,0 +1,83 @@
+#include "openings/portals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/constants.h"
+#include "tests/unit/support/room_with_hole.h"
+#include "tests/unit/support/statistics.h"
+#include "tests/unit/transport/transport_fixture.h"
+#include "transport/find_openings.h"
+
+namespace rsphere {
+namespace {
+
+const std::string kHoleInWall = "void plastic gray 0 0 5 .5 .5 .5 0 0\n" + kRoomWithHole +
+                                "void glow sky_glow 0 0 4 1 1 1 0\nsky_glow source sky 0 0 4 0 0 1 360\n";
+
+struct Hole {
+  Traced traced{kHoleInWall, unbiased(1)};
+  Portals portals{findOpenings(traced.prepared()), 4, kSamePlace};
+};
+
+bool isInHole(const V3d& point, const V3d& d) {
+  if (!(d.y < 0)) return false;
+  const V3d at = point - d * (point.y / d.y);
+  return at.x > 1 && at.x < 3 && at.z > 1 && at.z < 2;
+}
+
+TEST(Portals, AreLeftFromInsideOnly) {
+  const Hole hole;
+  ASSERT_EQ(hole.portals.all().size(), 1u);
+  const double lift = hole.portals.lift();
+  EXPECT_NEAR(hole.portals.leaving(V3d(2, 3, 1.5), V3d(0, -1, 0), 10), 3 + lift, 1e-9);
+  EXPECT_EQ(hole.portals.leaving(V3d(2, 3, 1.5), V3d(0, -1, 0), 2), kFarAway) << "ends before it";
+  EXPECT_EQ(hole.portals.leaving(V3d(2, 3, 2.5), V3d(0, -1, 0), 10), kFarAway) << "passes above it";
+  EXPECT_EQ(hole.portals.leaving(V3d(2, -3, 1.5), V3d(0, 1, 0), 10), kFarAway) << "enters by it";
+  EXPECT_FALSE(hole.portals.isLeft(V3d(2, 3, 1.5), V3d(0, 1, 0), 10));
+}
+
+TEST(Portals, HaveTheProjectedAreaOfTheHole) {
+  const Hole hole;
+  EXPECT_NEAR(areaTowards(hole.portals.all(), V3d(0, .6, -.8)), 2 * .6, 1e-6);
+  EXPECT_EQ(areaTowards(hole.portals.all(), V3d(0, -.6, -.8)), 0);
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+    const V3d at = pointTowards(hole.portals.all(), V3d(0, .6, -.8), u1, u2, u3);
+    EXPECT_TRUE(at.x >= 1 && at.x <= 3 && at.z >= 1 && at.z <= 2) << at;
+  }
+}
+
+// Together, they have the hole's configuration factor, which a grid over the hole finds as well.
+TEST(PortalDirections, WeighWhatIsSeenOfTheHole) {
+  const Hole hole;
+  for (const V3d& point : {V3d(2, 2, .8), V3d(.4, .3, .8), V3d(3.5, 3.9, 0)}) {
+    const PortalDirections directions(hole.portals, point, V3d(0, 0, 1));
+    Random random(1);
+    Sample through;
+    double steps = 0, inside = 0;
+    int beside = 0;
+    for (int i = 0; i < 60000; ++i) {
+      const PortalDirections::Sample sample = directions.draw(random);
+      through.add(sample.share);
+      beside += sample.share > 0 && !isInHole(point, sample.direction);
+    }
+    // The configuration factor by a fine grid over the hole: cos cos / (pi d^2).
+    constexpr int kSteps = 400;
+    for (int i = 0; i < kSteps; ++i)
+      for (int k = 0; k < kSteps; ++k) {
+        const V3d to = V3d(1 + 2 * (i + .5) / kSteps, 0, 1 + (k + .5) / kSteps) - point;
+        const double length2 = to.length2();
+        inside += std::max(0., to.z) * -to.y / (kPi * length2 * length2) * 2;
+        ++steps;
+      }
+    EXPECT_LT(beside, 10) << "portals lie outside of the hole, by little";
+    expectMean(through, inside / steps, 1.05);
+  }
+}
+
+}  // namespace
+}  // namespace rsphere

@@ -1,0 +1,197 @@
+#include "spots/bright_spots.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/unit/transport/transport_fixture.h"
+#include "transport/find_openings.h"
+
+namespace rsphere {
+namespace {
+
+// A room of 4 x 4 x 3, white.
+const std::string kRoom =
+    "void plastic white\n0\n0\n5 .6 .6 .6 0 0\nvoid light shining\n0\n0\n3 100 100 100\n"
+    "white polygon floor\n0\n0\n12 0 0 0 4 0 0 4 4 0 0 4 0\n"
+    "white polygon ceiling\n0\n0\n12 0 0 3 0 4 3 4 4 3 4 0 3\n"
+    "white polygon left\n0\n0\n12 0 0 0 0 4 0 0 4 3 0 0 3\n"
+    "white polygon right\n0\n0\n12 4 0 0 4 0 3 4 4 3 4 4 0\n"
+    "white polygon near\n0\n0\n12 0 0 0 0 0 3 4 0 3 4 0 0\n"
+    "white polygon far\n0\n0\n12 0 4 0 4 4 0 4 4 3 0 4 3\n";
+
+// A bulb in a pot that is open above, below the ceiling.
+const std::string kPot =
+    "shining sphere bulb\n0\n0\n4 1 1 2.5 .02\n"
+    "white tube shade\n0\n0\n7 1 1 2.4 1 1 2.7 .3\nwhite cylinder outside\n0\n0\n7 1 1 2.4 1 1 2.7 .302\n"
+    "white ring bottom\n0\n0\n8 1 1 2.4 0 0 1 0 .302\n";
+
+BrightSpots spotsOf(const Traced& t) {
+  return BrightSpots(t.scene(), t.prepared().tracer(), t.prepared().lights());
+}
+
+TEST(BrightSpots, AreWhereLightIsThick) {
+  const Traced pot(kRoom + kPot);
+  EXPECT_FALSE(spotsOf(pot).empty());
+  BrightSpots::Aim aim;
+  spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, 1), aim);
+  EXPECT_GT(aim.mean, .3 * spotsOf(pot).usual());
+  // No spot is in front of the back of the floor.
+  spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, -1), aim);
+  EXPECT_EQ(aim.mean, 0);
+}
+
+TEST(BrightSpots, AreNotWhereItIsEven) {
+  const Traced even(kRoom + "shining polygon panel\n0\n0\n12 1 1 2.99 1 3 2.99 3 3 2.99 3 1 2.99\n");
+  EXPECT_TRUE(spotsOf(even).empty());
+  EXPECT_TRUE(spotsOf(Traced(kRoom)).empty());
+  EXPECT_TRUE(spotsOf(Traced("")).empty());
+}
+
+// The share of the directions aimed from the middle of the floor that meet the ceiling at x < 2.
+double shareOfTheFirstHalf(const BrightSpots& spots) {
+  const V3d point(2, 2, 0);
+  BrightSpots::Aim aim;
+  spots.aim(point, V3d(0, 0, 1), aim);
+  if (!(aim.mean > 0)) return 0;
+  Random random(1);
+  Sample first;
+  for (int i = 0; i < 4000; ++i) {
+    const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+    first.add(spots.sample(aim, u1, u2, u3).x < 0);
+  }
+  return first.mean();
+}
+
+// Two equal tubes below a ceiling had all their spots beside one of them: the group of particles around the
+// other was never divided, because its first division gained too little.
+TEST(BrightSpots, AreBesideEachOfTwoTubes) {
+  const std::string one = "shining cylinder one\n0\n0\n7 .4 2 2.93 1.6 2 2.93 .02\n",
+                    other = "shining cylinder other\n0\n0\n7 2.4 2 2.93 3.6 2 2.93 .02\n";
+  EXPECT_NEAR(shareOfTheFirstHalf(spotsOf(Traced(kRoom + one + other))), .5, .15);
+  EXPECT_GT(shareOfTheFirstHalf(spotsOf(Traced(kRoom + one))), .9);
+}
+
+// The density of aimed directions is density(): the integral of a function over a cap, weighted with this
+// density, agrees with the mean over sampled directions.
+TEST(BrightSpots, AreAimedAtAsDensitySays) {
+  const Traced pot(kRoom + kPot);
+  const BrightSpots spots = spotsOf(pot);
+  for (const V3d& point : {V3d(3, 3, 0), V3d(1, 1.5, 0), V3d(2, .3, 2.9)}) {
+    const V3d middle = (V3d(1, 1, 2.7) - point).normalized();
+    BrightSpots::Aim aim;
+    spots.aim(point, middle, aim);
+    ASSERT_GT(aim.mean, 0);
+    const double versine = .1;
+    Random random(1);
+    Sample sampled, weighted;
+    V3d x, y;
+    frame(middle, x, y);
+    const auto some = [&](const V3d& d) { return 1 + 8 * d.dot(x) + 3 * d.dot(y); };
+    for (int i = 0; i < 100000; ++i) {
+      const V3d d = spots.sample(aim, random.uniform(), random.uniform(), random.uniform());
+      EXPECT_NEAR(d.length(), 1, 1e-12);
+      EXPECT_GT(spots.density(aim, d), 0);
+      sampled.add(d.dot(middle) > 1 - versine ? some(d) : 0);
+      const double z = 1 - versine * random.uniform(), angle = 2 * std::numbers::pi * random.uniform();
+      const double r = std::sqrt(1 - z * z);
+      const V3d even = r * std::cos(angle) * x + r * std::sin(angle) * y + z * middle;
+      weighted.add(2 * std::numbers::pi * versine * spots.density(aim, even) * some(even));
+    }
+    EXPECT_GT(sampled.mean(), .1);
+    const double error = std::hypot(sampled.standardError(), weighted.standardError());
+    EXPECT_LT(std::abs(sampled.mean() - weighted.mean()), kMostSigmas * error);
+    EXPECT_GT(std::abs(1.1 * sampled.mean() - weighted.mean()), kMostSigmas * error);
+  }
+}
+
+// A number just below 1 is 1 in single precision. Near some of these points, the last spot contributes
+// nothing because it contains the point.
+TEST(BrightSpots, TheLargestNumberChoosesASpotThatContributes) {
+  const Traced pot(kRoom + kPot);
+  const BrightSpots spots = spotsOf(pot);
+  const double largest = std::nextafter(1., 0.);
+  int inLast = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = .1 * i, radius = .3 * (i % 20) / 20;
+    const V3d point(1 + radius * std::cos(angle), 1 + radius * std::sin(angle), 2.4 + .3 * (i % 7) / 7);
+    BrightSpots::Aim aim;
+    spots.aim(point, V3d(0, 0, 1), aim);
+    if (!(aim.mean > 0)) continue;
+    inLast += aim.count > 1 && !(aim.sum[aim.count - 1] > aim.sum[aim.count - 2]);
+    const V3d direction = spots.sample(aim, largest, .5, .5);
+    EXPECT_NEAR(direction.length(), 1, 1e-12);
+    EXPECT_GT(spots.density(aim, direction), 0);
+  }
+  EXPECT_GT(inLast, 0);
+}
+
+// Aimed paths give the same mean with less noise. The reference is the mean of 20 million paths that are not
+// aimed, with a standard error of 1.9e-6 (mean() below with that count).
+TEST(BrightSpots, LeaveTheMeanAsItIs) {
+  Traced pot(kRoom + kPot, unbiased(2));
+  const BrightSpots spots = spotsOf(pot);
+  PathTracer aimed = pot.tracerWith(Aims{nullptr, &spots});
+  const V3d origin(3, 2.5, 1), down(.1, .2, -1);
+  constexpr double kMean = 7.0979e-4;
+  constexpr int kPaths = 80000;
+  Sample sample;
+  for (int i = 0; i < kPaths; ++i)
+    sample.add(aimed.trace(origin, down.normalized(), 0, mixBits(i)).value.color.x);
+  expectMean(sample, kMean, 1.08);
+  EXPECT_LT(sample.standardError(), .5 * pot.mean(origin, down, kPaths).standardError());
+}
+
+Openings openingsOf(const std::string& text) {
+  Traced t(text, unbiased(1));
+  return findOpenings(t.prepared());
+}
+
+TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
+  const Traced room(kSunlitRoom, unbiased(1));
+  const Openings openings = openingsOf(kSunlitRoom);
+  ASSERT_FALSE(openings.empty());
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
+    BrightSpots::Aim aim;
+    spots.aim(point, V3d(0, 0, -1), aim);
+    ASSERT_GT(aim.mean, .3 * spots.usual());
+    Random random(1);
+    Sample onSunlit;
+    for (int i = 0; i < 2000; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d d = spots.sample(aim, u1, u2, u3);
+      EXPECT_GT(spots.density(aim, d), 0);
+      const V3d at = point - d * (point.z / d.z);
+      onSunlit.add(d.z < 0 && std::abs(at.x - 2) < .5 && std::abs(at.y - 1.5) < .5);
+    }
+    // Spots are round and overlap: they cover the square and a margin around it.
+    EXPECT_GT(onSunlit.mean(), .5);
+  }
+  // Without openings, few of the particles that the sun sends to so wide a scene enter through the window.
+  BrightSpots::Aim aim;
+  spotsOf(room).aim(V3d(2, 2, 3), V3d(0, 0, -1), aim);
+  EXPECT_EQ(aim.mean, 0);
+}
+
+TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
+  Traced room(kSunlitRoom, unbiased(1));
+  const Openings openings = openingsOf(kSunlitRoom);
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  PathTracer aimed = room.tracerWith(Aims{nullptr, &spots});
+  // A ray to the north wall, below the sill, where no ground is visible through the window.
+  const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
+  Sample with, without;
+  for (uint64_t i = 0; i < 30000; ++i) {
+    with.add(aimed.trace(origin, north, 0, mixBits(i)).value.color.x);
+    without.add(room.value(origin, north, mixBits(i + 1000000)));
+  }
+  const double error = std::hypot(with.standardError(), without.standardError());
+  EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error);
+  EXPECT_GT(std::abs(1.3 * with.mean() - without.mean()), kMostSigmas * error) << "the spoiled twin";
+  EXPECT_LT(with.standardError(), .5 * without.standardError());
+}
+
+}  // namespace
+}  // namespace rsphere
