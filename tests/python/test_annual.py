@@ -1,11 +1,11 @@
 """examples/annual: faults of weather files and coefficients are one line with file and line, and missing hours are left out."""
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
+
+from run_here import run_here
 
 ANNUAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/annual/annual")
 WEA = "place X\nlatitude 50\nlongitude -10\ntime_zone -15\nsite_elevation 100\nweather_data_file_units 1\n"
@@ -31,7 +31,12 @@ class Annual(unittest.TestCase):
             for file, data in ((name, weather), ("co.f", of_sky or coefficients())):
                 with open(os.path.join(folder, file), "wb") as stream:
                     stream.write(data if isinstance(data, bytes) else data.encode("latin-1"))
-            run = subprocess.run([sys.executable, ANNUAL, name, "co.f"], cwd=folder, capture_output=True, text=True)
+            before = os.getcwd()
+            os.chdir(folder)
+            try:
+                run = run_here([ANNUAL, name, "co.f"])
+            finally:
+                os.chdir(before)
         return run.returncode, run.stdout, run.stderr
 
     def refuse(self, said, *arguments, **named):

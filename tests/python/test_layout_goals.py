@@ -15,6 +15,8 @@ import xml.dom.minidom
 
 import numpy as np
 
+from run_here import run_here
+
 TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LAYOUT = os.path.join(TESTS, "../examples/layout")
 OFFICE = os.path.join(LAYOUT, "cases/office.rad")
@@ -51,8 +53,8 @@ FAULTS = (
 
 
 class Goals(unittest.TestCase):
-    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8", stderr=subprocess.PIPE):
-        """furniture: scene text besides the office."""
+    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8", stderr=subprocess.PIPE, here=False):
+        """furniture: scene text besides the office. here: in this process."""
         with tempfile.TemporaryDirectory() as folder:
             file, more = os.path.join(folder, "goals.txt"), os.path.join(folder, "more.rad")
             for path, text in (file, "\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies"))), (more, furniture):
@@ -60,8 +62,9 @@ class Goals(unittest.TestCase):
                     stream.write(text)
             command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, *([more] if furniture else []),
                        "-o", os.path.join(folder, "out"), "--no-plan", *options]
-            run = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False)
-            return run, file
+            if here:
+                return run_here(command[1:]), file
+            return subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False), file
 
     def test_good(self):
         run, _ = self.run_on(GOOD)
@@ -130,7 +133,7 @@ class Goals(unittest.TestCase):
     def test_faults(self):
         for index, text, line, words in FAULTS:
             with self.subTest(text=text):
-                run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]])
+                run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]], here=True)
                 self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
                 self.assertRegex(run.stderr, (re.escape(f"layout: {file}:{line}: ") if line else "layout: ") + ".*" + words)
@@ -182,7 +185,7 @@ class Goals(unittest.TestCase):
             (["illuminance floor 300 back"], r"goals\.txt:3: .* where it faces, .*leave out back"),
             (["sensor s 1.9 1.2 .001 0 0 -1", "illuminance s 300"], r"goals\.txt:4: .* faces, 0 0 -1; .*turn it round"),
         ):
-            run, _ = self.run_on([*GOOD[:2], *lines])
+            run, _ = self.run_on([*GOOD[:2], *lines], here=True)
             self.assertEqual(run.returncode, 1, run.stdout)
             self.assertRegex(run.stderr, words)
 

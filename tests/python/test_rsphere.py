@@ -462,10 +462,10 @@ class Threads(unittest.TestCase):
     def test_control_c_while_the_last_record_is_answered(self):
         """It was a SystemError: the call returned its answers although the signal had raised an exception."""
         scene = rsphere.Scene(ROOM)
-        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            scene.sphere(POINTS[:1], Sn=15000, Sx=30000, ab=2)
+            scene.sphere(POINTS[:1], Sn=6000, Sx=12000, ab=2)
             self.fail("the call took too little time")
         timer.join()
 

@@ -1,0 +1,23 @@
+"""Scripts of Python run in the process of a test: to load NumPy and SciPy takes longer than to find a fault."""
+import contextlib
+import io
+import runpy
+import subprocess
+import sys
+import unittest.mock
+
+
+def run_here(words):
+    """Runs the script words[0] as subprocess.run() would, its text captured."""
+    with contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO())) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+        status = 0
+        try:
+            with unittest.mock.patch.object(sys, "argv", words):
+                runpy.run_path(words[0], run_name="__main__")
+        except SystemExit as end:
+            status = end.code
+            if isinstance(status, str):
+                err.write(status + "\n")
+                status = 1
+        out.seek(0)
+        return subprocess.CompletedProcess(words, status, out.read(), err.getvalue())
