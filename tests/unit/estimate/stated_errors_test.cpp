@@ -148,7 +148,7 @@ const V3d kPointsInTheWhiteRoom[] = {V3d(1.5, 1, 1.2), V3d(3, 2.5, 1.2), V3d(5, 
 
 // How its light bends smoothly over the walls is no error.
 TEST(StatedErrors, OfSmoothLightAreNotThoseOfItsBends) {
-  const auto answers = answersOf(whiteRoomWithATinyLamp(3), kPointsInTheWhiteRoom, 2048, 10);
+  const auto answers = answersOf(whiteRoomWithATinyLamp(3), kPointsInTheWhiteRoom, 2048, 7);
   const Honesty honest = honestyOf(answers, 1);
   EXPECT_GT(honest.trueOverStated, .6);
   EXPECT_LT(honest.trueOverStated, 1.25);

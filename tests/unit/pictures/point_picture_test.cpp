@@ -122,7 +122,7 @@ TEST(PointPicture, WallsAndLuminairesAreAsBrightAsTheyAre) {
     const V3d point(.2, -.3, .1);
     // Indirect light from the window is noisy: by 1% in a picture, and as much in a mean.
     Sample ratio;
-    for (uint64_t seed = 1; seed <= 8; ++seed) {
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
       const Drawn another(text, point, 2, projection, 120, seed);
       ratio.add(another.integral() / (4 * kPi * another.mean));
     }
