@@ -1,6 +1,9 @@
 #pragma once
 // Constants and small functions for rays that the parts of PathTracer share.
 
+#include <cmath>
+#include <utility>
+
 #include "base/constants.h"
 #include "rays/ray.h"
 #include "scene/material.h"
@@ -28,7 +31,11 @@ inline double apparentLength(const RayResult& seen) {
 inline bool isMedium(const Color& extinction) { return maxChannel(extinction) > 1 / kFarAway; }
 
 // The transmittance of a medium. extinction: per unit length.
-Coefficient transmittanceOf(const Color& extinction, double length);
+inline Coefficient transmittanceOf(const Color& extinction, double length) {
+  Color transmittance = extinction;
+  transmittance.transform([&](double k) { return std::exp(-k * length); });
+  return Coefficient(std::move(transmittance));
+}
 inline Coefficient passing(const Color& extinction, double length) {
   return isMedium(extinction) ? transmittanceOf(extinction, length) : Coefficient(1);
 }

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace rsphere {
-
-Coefficient transmittanceOf(const Color& extinction, double length) {
-  Color transmittance = extinction;
-  transmittance.transform([&](double k) { return std::exp(-k * length); });
-  return Coefficient(std::move(transmittance));
-}
 namespace {
 
 constexpr int kMostSteps = 16;  // samples of one source along a ray; as in RADIANCE
