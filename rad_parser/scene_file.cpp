@@ -10,14 +10,14 @@
 #include <system_error>
 #include <utility>
 
+#include "rad_parser/binary/octree_file.h"
 #include "rad_parser/description_builder.h"
 #include "rad_parser/number.h"
-#include "rad_parser/octree_file.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
 #include "rad_parser/shell_command.h"
 #include "rad_parser/text_source.h"
-#include "rad_parser/xform_command.h"
+#include "rad_parser/transforms/xform_command.h"
 
 namespace rad {
 namespace {

@@ -10,17 +10,17 @@
 #include "answer/batch.h"
 #include "answer/header.h"
 #include "answer/load_scene.h"
-#include "answer/memory_limit.h"
 #include "answer/messages.h"
-#include "answer/record_reader.h"
-#include "answer/record_writer.h"
 #include "answer/report_interval.h"
-#include "answer/stop_signals.h"
 #include "base/tuned.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"
 #include "cli/program.h"
+#include "process/memory_limit.h"
+#include "process/stop_signals.h"
 #include "rcontrib/contribution_run.h"
+#include "records/record_reader.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 namespace {
@@ -55,7 +55,7 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   const Transport& transport =
       lasting(new Transport(scene, options.ray, options.irradiance, options.sphere.basicRadiance, warn));
 
-  RecordReader reader(0, options);
+  RecordReader reader = readerOf(0, options);
   const AnswerWriter answers(options);
   writeHeader(writer, options, scene.description.header, std::time(nullptr));
   writer.flush();  // a communicating program may read the header before it sends a record

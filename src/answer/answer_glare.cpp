@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "answer/threads.h"
+#include "process/threads.h"
 
 namespace rsphere {
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "answer/number_format.h"
-#include "answer/output_colors.h"
 #include "points/sphere_options.h"
 #include "rays/ray_options.h"
+#include "records/number_format.h"
+#include "records/output_colors.h"
 #include "scene/sensors.h"
 
 namespace rsphere {

@@ -7,9 +7,9 @@
 
 #include "answer/header.h"
 #include "answer/report_interval.h"
-#include "answer/threads.h"
 #include "base/spectral_sampling.h"
 #include "pictures/draw_point.h"
+#include "process/threads.h"
 
 namespace rsphere {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "answer/threads.h"
+#include "process/threads.h"
 #include "rays/ray_report.h"
 #include "scene/modifier_names.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answer/record_text.h"
+#include "records/record_text.h"
 
 namespace rsphere {
 namespace {

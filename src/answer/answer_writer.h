@@ -4,10 +4,10 @@
 #include <string>
 
 #include "answer/answer_options.h"
-#include "answer/output_colors.h"
 #include "points/glare_answer.h"
 #include "points/point_answer.h"
 #include "rays/ray_answer.h"
+#include "records/output_colors.h"
 
 namespace rsphere {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "answer/answer_writer.h"
-#include "answer/threads.h"
+#include "process/threads.h"
 
 namespace rsphere {
 namespace {

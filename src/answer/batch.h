@@ -4,14 +4,22 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "answer/answer_options.h"
 #include "answer/messages.h"
-#include "answer/record_reader.h"
-#include "answer/record_writer.h"
-#include "answer/stop_signals.h"
+#include "process/stop_signals.h"
+#include "records/record_reader.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
+
+// A reader of the records of a mode. Line ends separate points, because there is no other program whose
+// format of points must be matched. They are blanks between the numbers of rays, as in rtrace.
+inline RecordReader readerOf(int descriptor, const AnswerOptions& options, std::string name = "stdin") {
+  return {descriptor, options.in, options.numbersPerRecord(),
+          options.sphereMode ? LineEnds::endRecords : LineEnds::areBlanks, std::move(name)};
+}
 
 // One input record.
 struct Record {

@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "answer/answer_writer.h"
-#include "answer/output_colors.h"
 #include "base/version.h"
+#include "records/output_colors.h"
 #include "sphere/direction_bins.h"
 
 namespace rsphere {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "answer/answer_options.h"
-#include "answer/record_writer.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "answer/record_writer.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 namespace {

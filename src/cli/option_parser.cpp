@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "answer/output_colors.h"
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "cli/word_file.h"
@@ -17,6 +16,7 @@
 #include "rad_parser/number.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
+#include "records/output_colors.h"
 
 namespace rsphere {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <functional>
 
-#include "answer/output_colors.h"
 #include "cli/option_words.h"
 #include "cli/word_file.h"
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
 #include "rad_parser/printable.h"
+#include "records/output_colors.h"
 
 namespace rsphere {
 namespace {

@@ -1,7 +1,7 @@
 #include "cli/print_request.h"
 
 #include "answer/header.h"
-#include "answer/record_writer.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 

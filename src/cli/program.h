@@ -3,8 +3,8 @@
 #include <span>
 
 #include "answer/messages.h"
-#include "answer/stop_signals.h"
 #include "cli/option_table.h"
+#include "process/stop_signals.h"
 
 namespace rsphere {
 

@@ -9,6 +9,7 @@
 #include "glances/tuning.h"
 #include "openings/tuning.h"
 #include "points/clamp.h"
+#include "silhouettes/source_variance.h"
 #include "silhouettes/tuning.h"
 #include "sphere/directions.h"
 #include "targets/cells_in_targets.h"

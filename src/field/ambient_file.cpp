@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "scene/fingerprint.h"
+#include "field/fingerprint.h"
 
 namespace rsphere {
 namespace {

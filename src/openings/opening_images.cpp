@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/constants.h"
+#include "base/keep_largest.h"
 #include "scene/material_questions.h"
-#include "spots/highlight_choice.h"
 
 namespace rsphere {
 namespace {

@@ -1,4 +1,6 @@
 #pragma once
+// Pictures of the view from a point: pixels are traced like directions (pixel_tracer.h), and what is noisy is
+// shared among neighbours (smooth_light.h).
 #include <cstdint>
 #include <functional>
 

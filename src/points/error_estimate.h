@@ -10,7 +10,6 @@
 
 #include "base/colorimetry.h"
 #include "points/direction_sample.h"
-#include "silhouettes/seen_sources.h"
 #include "sphere/direction_bins.h"
 
 namespace rsphere {
@@ -101,16 +100,6 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
 // error of an opening's light would be 0 whenever all of the few directions sent to it see the same sky. The
 // assumed occluder also hides light that was found by glances.
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to = nullptr);
-
-// The variance of the samples of one image of a light source, in the order of its grid. It is computed from
-// differences between adjacent cells, because occluded cells lie together.
-Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
-                       ZoneVariances* to = nullptr);
-
-// The variance due to sampling a random subset of the images, if there are more images than samples. It is
-// computed from differences between images that are sampled in succession. samples: of all images.
-Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 
 }  // namespace rsphere

@@ -1,4 +1,8 @@
 #pragma once
+// A ray as a question and as an answer: what is asked along it, what it inherits from its ancestors, what it
+// hits and what it finds. The other headers of this folder have what all rays of a run ask with: options, the
+// prepared scene with its light sources, and the observer of a path. How the light is found is up to the
+// folders that follow.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "light/source_choice.h"
 #include "light/sources.h"
 #include "occluders/hidden_boxes.h"
+#include "rays/chosen_surfaces.h"
 #include "rays/presumed_shadows.h"
-#include "scene/chosen_surfaces.h"
 #include "shade/surface_functions.h"
 
 namespace rsphere {

@@ -14,9 +14,9 @@
 #include <functional>
 
 #include "answer/header.h"
-#include "answer/record_text.h"
 #include "rad_parser/open_file.h"
 #include "rcontrib/recovered_header.h"
+#include "records/record_text.h"
 
 namespace rsphere {
 namespace {

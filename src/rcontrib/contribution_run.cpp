@@ -57,7 +57,7 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   std::vector<ContributionTracer> tracers;
   for (PathTracer& tracer : rayTracers(transport, options)) tracers.emplace_back(std::move(tracer), tracked);
 
-  RecordReader reader(0, options);
+  RecordReader reader = readerOf(0, options);
   ContributionOutputs outputs(options, tracked, scene.description.header);
   const auto rays = static_cast<uint64_t>(options.raysPerRecord);
   RecordSums sums(outputs, tracked.columns(), static_cast<size_t>(tracked.components()), rays,

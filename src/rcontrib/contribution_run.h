@@ -1,6 +1,6 @@
 #pragma once
 #include "answer/messages.h"
-#include "answer/stop_signals.h"
+#include "process/stop_signals.h"
 #include "rcontrib/contribution_options.h"
 
 namespace rsphere {

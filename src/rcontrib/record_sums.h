@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
-#include "answer/record_writer.h"
 #include "contrib/contribution_list.h"
 #include "rcontrib/contribution_outputs.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rad_parser/xform.h"
+#include "rad_parser/transforms/xform.h"
 
 namespace rsphere {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "rad_parser/xform.h"
+#include "rad_parser/transforms/xform.h"
 #include "scene/shape.h"
 
 namespace rsphere {

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "rad_parser/binary/mesh_file.h"
 #include "rad_parser/description.h"
-#include "rad_parser/mesh_file.h"
 #include "scene/ids.h"
 #include "scene/material.h"
 #include "scene/material_questions.h"

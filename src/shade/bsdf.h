@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "base/color.h"
-#include "rad_parser/bsdf_file.h"
+#include "rad_parser/tables/bsdf_file.h"
 
 namespace rsphere {
 

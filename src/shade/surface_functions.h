@@ -16,10 +16,10 @@
 
 #include "base/colorimetry.h"
 #include "rad_parser/calc/library.h"
-#include "rad_parser/data_file.h"
-#include "rad_parser/font_file.h"
 #include "rad_parser/rayinit/interface.h"
-#include "rad_parser/xform.h"
+#include "rad_parser/tables/data_file.h"
+#include "rad_parser/tables/font_file.h"
+#include "rad_parser/transforms/xform.h"
 #include "scene/scene.h"
 #include "shade/bsdf.h"
 #include "shade/picture.h"

@@ -6,6 +6,9 @@
 // Monte Carlo rendering"). Spots are found once per scene, by tracing particles from the light sources
 // (Jensen 1995, "Importance driven path tracing using the photon map"). Spots that are missed or misplaced
 // change the variance, not the mean.
+//
+// The other small and bright places are highlights of light sources on rough balls and cylinders, which
+// follow from the geometry (highlights.h).
 #include <array>
 #include <optional>
 #include <span>

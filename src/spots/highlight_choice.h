@@ -1,18 +1,11 @@
 #pragma once
 // Chooses the surfaces that are examined for highlights.
-#include <algorithm>
 #include <vector>
 
+#include "base/keep_largest.h"
 #include "spots/highlight_lobe.h"
 
 namespace rsphere {
-
-// Keeps the `most` elements with the largest keys, the largest first.
-template <class T, class Key>
-void keepLargest(std::vector<T>& all, size_t most, Key key) {
-  std::stable_sort(all.begin(), all.end(), [&](const T& a, const T& b) { return key(a) > key(b); });
-  if (all.size() > most) all.resize(most);
-}
 
 template <class Shape>
 struct Reflector {

@@ -2,7 +2,7 @@
 // Triangles of a mesh, in the mesh's coordinates.
 #include <cstdint>
 
-#include "rad_parser/mesh_file.h"
+#include "rad_parser/binary/mesh_file.h"
 #include "scene/shape.h"
 
 namespace rsphere {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/version.h"
-#include "scene/fingerprint.h"
+#include "field/fingerprint.h"
 
 namespace rsphere {
 namespace {

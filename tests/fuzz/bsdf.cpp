@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "rad_parser/bsdf_file.h"
 #include "rad_parser/error.h"
+#include "rad_parser/tables/bsdf_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
-#include "rad_parser/data_file.h"
 #include "rad_parser/error.h"
-#include "rad_parser/font_file.h"
+#include "rad_parser/tables/data_file.h"
+#include "rad_parser/tables/font_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

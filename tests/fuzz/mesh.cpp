@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "memory_file.h"
-#include "rad_parser/mesh_file.h"
+#include "rad_parser/binary/mesh_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);

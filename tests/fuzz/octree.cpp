@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "memory_file.h"
-#include "rad_parser/octree_file.h"
+#include "rad_parser/binary/octree_file.h"
 
 // Whether the real arguments are there.
 static bool isWithin(const rad::Description& d, const rad::Primitive& p) {

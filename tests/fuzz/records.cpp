@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "answer/record_reader.h"
 #include "memory_file.h"
 #include "rad_parser/error.h"
+#include "records/record_reader.h"
 
 namespace {
 

@@ -11,7 +11,6 @@
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
 #include "answer/load_scene.h"
-#include "answer/record_writer.h"
 #include "companions/compare/compare_page.h"
 #include "companions/compare/comparison.h"
 #include "companions/compare/original.h"
@@ -22,6 +21,7 @@
 #include "companions/report/page.h"
 #include "rad_parser/printable.h"
 #include "rays/ray_report.h"
+#include "records/record_writer.h"
 #include "sphere/directions.h"
 
 namespace rsphere {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "answer/record_reader.h"
+#include "answer/batch.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -22,7 +22,7 @@ std::vector<double> readRecords(const std::string& name, const AnswerOptions& op
   const Descriptor file{name == "-" ? 0 : open(name.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0)
     throw rad::Error(fmt::format("cannot open \"{}\": {}", name, std::strerror(errno)), rad::Status::system);
-  RecordReader reader(file.fd, options, name == "-" ? "stdin" : name);
+  RecordReader reader = readerOf(file.fd, options, name == "-" ? "stdin" : name);
   std::vector<double> numbers;
   constexpr size_t kAtOnce = 4096;
   while (reader.read(numbers, kAtOnce) > 0) {

@@ -8,7 +8,7 @@
 #include <exception>
 #include <mutex>
 
-#include "answer/threads.h"
+#include "process/threads.h"
 
 namespace rsphere {
 namespace {

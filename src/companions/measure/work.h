@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "answer/stop_signals.h"
+#include "process/stop_signals.h"
 
 namespace rsphere {
 

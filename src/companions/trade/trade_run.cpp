@@ -11,8 +11,6 @@
 #include <utility>
 
 #include "answer/load_scene.h"
-#include "answer/record_writer.h"
-#include "answer/threads.h"
 #include "cli/program.h"
 #include "companions/measure/records_file.h"
 #include "companions/report/markup.h"
@@ -22,6 +20,8 @@
 #include "companions/trade/schedule.h"
 #include "companions/trade/trade_report.h"
 #include "companions/trade/trials.h"
+#include "process/threads.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 namespace {

@@ -2,8 +2,8 @@
 #include <span>
 
 #include "answer/messages.h"
-#include "answer/stop_signals.h"
 #include "companions/trade/trade_options.h"
+#include "process/stop_signals.h"
 
 namespace rsphere {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "answer/answer_points.h"
-#include "answer/stop_signals.h"
 #include "companions/trade/curve.h"
+#include "process/stop_signals.h"
 
 namespace rsphere {
 

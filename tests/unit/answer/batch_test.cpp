@@ -44,7 +44,7 @@ Outcome run(std::initializer_list<const char*> words, const std::string& text,
       Messages messages("rsphere");
       messages.use(options.messages, "");
       const size_t head = contents(log.path).size();
-      RecordReader reader(in.descriptor, options);
+      RecordReader reader = readerOf(in.descriptor, options);
       RecordWriter writer(out.descriptor);
       try {
         runRecords(reader, writer, options, messages, nullptr, answer);
@@ -210,7 +210,7 @@ class Conversation {
  public:
   explicit Conversation(std::initializer_list<const char*> words, AnswerRecord answer = echo)
       : options_(parse(words)), answer_(std::move(answer)), thread_([this] {
-          RecordReader reader(toChild.out, options_);
+          RecordReader reader = readerOf(toChild.out, options_);
           RecordWriter writer(fromChild.in);
           try {
             runRecords(reader, writer, options_, Messages("rsphere"), nullptr, answer_);

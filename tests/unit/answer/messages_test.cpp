@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "answer/header.h"
-#include "answer/record_writer.h"
+#include "records/record_writer.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {

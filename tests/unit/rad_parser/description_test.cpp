@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene_text.h"
+#include "tests/unit/rad_parser/scene_text.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "scene_text.h"
+#include "tests/unit/rad_parser/scene_text.h"
 
 namespace {
 

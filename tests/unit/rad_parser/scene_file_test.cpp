@@ -11,7 +11,7 @@
 #include <random>
 
 #include "rad_parser/printable.h"
-#include "scene_text.h"
+#include "tests/unit/rad_parser/scene_text.h"
 
 namespace {
 

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "scene/chosen_surfaces.h"
-
 namespace rsphere {
 namespace {
 
@@ -49,22 +47,6 @@ TEST(SurfaceList, ShowsShapesFinishesAndPrimitives) {
   size_t first = 0;
   for (const Surface& s : list.first(2)) first += s.id.index() + 1;
   EXPECT_EQ(first, 3u);
-}
-
-TEST(ChosenSurfaces, AreNumberedInTheirOrder) {
-  const std::vector<int> chosen = {0, 3, 63, 64, 65, 200, 391, 639};
-  ChosenSurfaces surfaces(640);
-  for (const int i : chosen) surfaces.add(SurfaceId(i));
-  uint32_t next = 0;
-  for (int i = 0; i < 640; ++i) {
-    const auto number = surfaces.numberOf(SurfaceId(i));
-    const bool isChosen = next < chosen.size() && chosen[next] == i;
-    ASSERT_EQ(number.has_value(), isChosen) << i;
-    if (isChosen) {
-      EXPECT_EQ(*number, next++);
-    }
-  }
-  EXPECT_EQ(next, chosen.size());
 }
 
 }  // namespace

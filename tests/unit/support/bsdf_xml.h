@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rad_parser/bsdf_file.h"
+#include "rad_parser/tables/bsdf_file.h"
 #include "scene/scene.h"
 
 namespace rsphere {

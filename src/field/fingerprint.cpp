@@ -1,0 +1,106 @@
+#include "field/fingerprint.h"
+
+#include <cstring>
+#include <unordered_set>
+
+#include "rad_parser/open_file.h"
+
+namespace rsphere {
+
+void Fingerprint::add(std::string_view text) {
+  add(text.size());
+  for (size_t i = 0; i < text.size(); i += 8) {
+    uint64_t piece = 0;
+    std::memcpy(&piece, text.data() + i, std::min<size_t>(8, text.size() - i));
+    add(piece);
+  }
+}
+
+void addFile(Fingerprint& print, std::string_view name, const rad::FileAccess& access) {
+  const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
+  const rad::OpenFile file(path.value_or(""));
+  // The name may be a folder: "." stands for no function file, and is also a folder on RAYPATH.
+  const bool isOpen = file.descriptor() >= 0 && file.isRegular();
+  print.add(uint64_t{isOpen});
+  if (isOpen) print.add(file.contents(*path));
+}
+
+namespace {
+
+void add(Fingerprint& print, const V3d& v) {
+  for (int c = 0; c < 3; ++c) print.add(v[c]);
+}
+
+// Only the defining values of shapes, not those computed from them.
+void add(Fingerprint& print, const Polygon& polygon, const Scene& scene) {
+  print.add(uint64_t{polygon.vertices});
+  for (uint32_t i = 0; i < polygon.vertices; ++i) add(print, scene.vertices[polygon.firstVertex + i]);
+}
+void add(Fingerprint& print, const Sphere& sphere, const Scene&) {
+  add(print, sphere.center);
+  print.add(sphere.radius);
+  print.add(uint64_t{sphere.inward});
+}
+void add(Fingerprint& print, const Cone& cone, const Scene&) {
+  add(print, cone.base);
+  add(print, cone.axis);
+  for (const double x : {cone.length, cone.radius0, cone.radius1}) print.add(x);
+  print.add(uint64_t{cone.inward});
+}
+void add(Fingerprint& print, const Ring& ring, const Scene&) {
+  add(print, ring.center);
+  add(print, ring.normal);
+  print.add(ring.inner);
+  print.add(ring.outer);
+}
+void add(Fingerprint& print, const Distant& distant, const Scene&) {
+  add(print, distant.direction);
+  print.add(distant.halfAngle);
+}
+// Their placements are string arguments in the description.
+void add(Fingerprint&, const Instance&, const Scene&) {}
+void add(Fingerprint&, const MeshInstance&, const Scene&) {}
+void add(Fingerprint&, const MeshFaces&, const Scene&) {}
+
+void add(Fingerprint& print, const rad::Mesh& mesh) {
+  for (const auto& vertex : mesh.positions)
+    for (const uint32_t x : vertex) print.add(uint64_t{x});
+  for (const uint32_t normal : mesh.normals) print.add(uint64_t{normal});
+  for (const auto& uv : mesh.uvs)
+    for (const uint32_t x : uv) print.add(uint64_t{x});
+  for (const auto& triangle : mesh.triangles) {
+    for (const uint32_t vertex : triangle.vertices) print.add(uint64_t{vertex});
+    print.add(static_cast<uint64_t>(triangle.material));
+  }
+}
+
+}  // namespace
+
+uint64_t fingerprint(const Scene& scene) {
+  Fingerprint print;
+  const rad::Description& d = scene.description;
+  std::unordered_set<uint32_t> seen;
+  for (const rad::Primitive& p : d.primitives) {
+    print.add(static_cast<uint64_t>(p.type));
+    print.add(uint64_t{static_cast<uint32_t>(p.modifier.number())} << 32 |
+              static_cast<uint32_t>(p.aliased.number()));
+    print.add(p.name);
+    if (!rad::isSurface(p.type))  // the numbers of shapes are added with the surfaces
+      for (const double x : d.reals(p)) print.add(x);
+    for (size_t i = 0; i < p.strings; ++i) {
+      print.add(d.string(p, i));
+      // The contents of octrees and meshes are already part of the scene.
+      if (rad::isSurface(p.type) || !seen.insert(d.stringArgs[p.firstString + i]).second) continue;
+      addFile(print, d.string(p, i), scene.files);
+    }
+  }
+  for (const Surface& s : scene.surfaces) {
+    print.add(uint64_t{static_cast<uint32_t>(s.modifier.number())} << 1 | static_cast<uint64_t>(s.goal));
+    visit([&](const auto& shape) { add(print, shape, scene); }, s.shape);
+  }
+  for (const Mesh& mesh : scene.meshes) add(print, mesh.data);
+  addFile(print, "rayinit.cal", scene.files);
+  return print.value();
+}
+
+}  // namespace rsphere
