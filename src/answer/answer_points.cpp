@@ -71,7 +71,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                           const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
                           const std::function<void()>& checkStop,
                           const PictureProgress::Report& pictureReport) {
-  const bool standardError = options.outputs.find_first_of("eZ") != std::string::npos;
+  const bool standardError = haveErrors(options.outputs);
   const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
   if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()

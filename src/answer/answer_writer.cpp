@@ -23,24 +23,29 @@ int componentCount(const AnswerOptions& options) {
   const int parts = std::max<int>(1, static_cast<int>(options.contributors.size()));
   const int coefficient = OutputColors(options.color).count(), color = coefficient * parts;
   int count = 0;
+  if (options.sphereMode && !options.sphere.everyDirection) {
+    using Form = PointQuantity::Form;
+    for (const char letter : options.outputs) {
+      const PointQuantity& quantity = *pointQuantity(letter);
+      const bool isColor = quantity.form == Form::colors || quantity.form == Form::errors;
+      count += (quantity.values == PointQuantity::kOfZones ? options.sphere.zones : quantity.values) *
+               (isColor                         ? color
+                : quantity.form == Form::vector ? parts
+                                                : 1);
+    }
+    return count;
+  }
   for (const char letter : options.outputs) switch (letter) {
       case 'v':
       case 'V':
       case 'r':
-      case 'x':
-      case 'e':
-      case 'E':
-      case 'C': count += color; break;
+      case 'x': count += color; break;
       case 'W': count += coefficient; break;
       case 'o':
       case 'd':
       case 'p':
       case 'n':
       case 'N': count += 3; break;
-      case 'u': count += 3 * parts; break;
-      case 'H': count += 6 * color; break;
-      case 'z':
-      case 'Z': count += options.sphere.zones * color; break;
       case 'c': count += 2; break;
       case '~': break;
       default: count += 1; break;
@@ -97,12 +102,6 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
   text.end();
 }
 
-void AnswerWriter::writeError(RecordText& text, const PointAnswer& answer) const {
-  if (options_.contributors.empty())
-    return colors_.writeError(text, answer.standardError, answer.brightnessError);
-  eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
-}
-
 // The error of the brightness is an upper bound that assumes full correlation of the errors of the channels.
 // They are nearly correlated, because the same paths contribute to all channels.
 void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
@@ -133,46 +132,34 @@ void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int 
   text.end();
 }
 
-// Writes all faces of the first contributor, then those of the next.
-void AnswerWriter::writeFaces(RecordText& text, const PointAnswer& answer) const {
-  if (options_.contributors.empty())
-    for (const Irradiance& face : answer.facing) colors_.write(text, face);
-  for (size_t i = 0; i < options_.contributors.size(); ++i)
-    for (const Irradiance& face : answer.facing) colors_.write(text, Irradiance(face.color.part(i)));
-}
-
-// Writes all zones of the first contributor, then those of the next.
-void AnswerWriter::writeZones(RecordText& text, const PointAnswer& answer) const {
-  if (options_.contributors.empty())
-    for (const Radiance& zone : answer.zones) colors_.write(text, zone);
-  for (size_t i = 0; i < options_.contributors.size(); ++i)
-    for (const Radiance& zone : answer.zones) colors_.write(text, Radiance(zone.color.part(i)));
-}
-
-void AnswerWriter::writeZoneErrors(RecordText& text, const PointAnswer& answer) const {
-  if (options_.contributors.empty())
-    for (const auto& [channels, bright] : answer.zoneErrors) colors_.writeError(text, channels, bright);
-  for (size_t i = 0; i < options_.contributors.size(); ++i)
-    for (const auto& [channels, bright] : answer.zoneErrors) writeErrorOfPart(text, channels.color.part(i));
+// Writes all values of the first contributor, then those of the next.
+void AnswerWriter::writeColors(RecordText& text, const PointQuantity& quantity,
+                               const PointAnswer& answer) const {
+  const size_t parts = options_.contributors.size();
+  for (size_t i = 0; i < std::max<size_t>(1, parts); ++i)
+    quantity.each(answer, options_.sphere, [&](const Color& all, double ofBrightness) {
+      if (quantity.form == PointQuantity::Form::colors)
+        colors_.write(text, Radiance(parts > 0 ? all.part(i) : all));
+      else if (parts > 0)
+        writeErrorOfPart(text, all.part(i));
+      else
+        colors_.writeError(text, Radiance(all), ofBrightness);
+    });
 }
 
 void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
+  using Form = PointQuantity::Form;
   RecordText text(bytes, options_.out);
-  const auto irradiance = [&](const Color& part) { colors_.write(text, Irradiance(part)); };
-  for (const char letter : options_.outputs) switch (letter) {
-      case 'o': text.vector(answer.point); break;
-      case 'v':
-        eachPart(answer.mean.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
-        break;
-      case 'e': writeError(text, answer); break;
-      case 'E': eachPart(answer.scalarIrradiance.color, irradiance); break;
-      case 'C': eachPart(answer.cylindricalIrradiance.color, irradiance); break;
-      case 'H': writeFaces(text, answer); break;
-      case 'u': writeLightVector(text, answer); break;
-      case 'k': text.integer(answer.directions); break;
-      case 'z': writeZones(text, answer); break;
-      case 'Z': writeZoneErrors(text, answer); break;
+  for (const char letter : options_.outputs) {
+    const PointQuantity& quantity = *pointQuantity(letter);
+    switch (quantity.form) {
+      case Form::place: text.vector(answer.point); break;
+      case Form::colors:
+      case Form::errors: writeColors(text, quantity, answer); break;
+      case Form::vector: writeLightVector(text, answer); break;
+      case Form::count: text.integer(answer.directions); break;
     }
+  }
   text.end();
 }
 

@@ -6,6 +6,7 @@
 #include "answer/answer_options.h"
 #include "points/glare_answer.h"
 #include "points/point_answer.h"
+#include "points/quantities.h"
 #include "rays/ray_answer.h"
 #include "records/output_colors.h"
 
@@ -16,8 +17,9 @@ namespace rsphere {
 int componentCount(const AnswerOptions& options);
 
 // Appends records to a string of bytes: the quantities of the -o letters, in this order, in the output
-// format. With contributors (-Sp), the letters v e E C H u z Z (in ray mode v V r x) write the part due to
-// each contributor in turn. REQUIRES: the options come from parseOptions() and exist as long as the writer.
+// format. With contributors (-Sp), the letters v e E C S h H u z Z (in ray mode v V r x) write the part due
+// to each contributor in turn. REQUIRES: the options come from parseOptions() and exist as long as the
+// writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
@@ -45,11 +47,8 @@ class AnswerWriter {
   void eachPart(const Color& color, const Write& write) const;
   // Writes the quantity of an -o letter for a ray.
   void writeLetter(RecordText& text, char letter, const RayAnswer& answer) const;
-  void writeError(RecordText& text, const PointAnswer& answer) const;
   void writeErrorOfPart(RecordText& text, const Color& part) const;
-  void writeZones(RecordText& text, const PointAnswer& answer) const;
-  void writeZoneErrors(RecordText& text, const PointAnswer& answer) const;
-  void writeFaces(RecordText& text, const PointAnswer& answer) const;
+  void writeColors(RecordText& text, const PointQuantity& quantity, const PointAnswer& answer) const;
   void writeLightVector(RecordText& text, const PointAnswer& answer) const;
 
   const AnswerOptions& options_;

@@ -351,6 +351,8 @@ std::vector<Column> columnsOf(PointAnswers& a) {
           {'e', &a.meanStandardError},
           {'E', &a.scalarIrradiance},
           {'C', &a.cylindricalIrradiance},
+          {'S', &a.semicylindricalIrradiance},
+          {'h', &a.hemisphericalIrradiance},
           {'H', &a.faceIrradiance},
           {'u', &a.lightVector},
           {'k', &a.directions},

@@ -11,6 +11,7 @@
 #include "cli/option_words.h"
 #include "cli/word_file.h"
 #include "contrib/direction_functions.h"
+#include "points/quantities.h"
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
 #include "rad_parser/number.h"
@@ -262,20 +263,23 @@ void checkGlareLetters(const Options& options) {
 void checkLetters(const Options& options) {
   if (options.sphereMode && options.sphere.glare.wanted) return checkGlareLetters(options);
   const bool points = options.sphereMode && !options.sphere.everyDirection;
-  const std::string_view known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~"
-                                 : points            ? (options.sphere.zones > 0 ? "oveECHukzZ" : "oveECHuk")
-                                                     : "iodwvlLcpnNsmM~";
+  std::string known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~" : points ? "" : "iodwvlLcpnNsmM~";
+  std::string colors = !options.sphereMode ? "vrx" : points ? "" : "v";
+  if (points)
+    for (const PointQuantity& quantity : pointQuantities()) {
+      if (quantity.values != PointQuantity::kOfZones || options.sphere.zones > 0) known += quantity.letter;
+      if (quantity.each && quantity.values == 1) colors += quantity.letter;
+    }
   for (const char letter : options.outputs + options.treeOutputs) {
-    if (known.find(letter) != std::string_view::npos) continue;
-    if (points && (letter == 'z' || letter == 'Z'))
+    if (known.find(letter) != std::string::npos) continue;
+    if (points && pointQuantity(letter))
       throw rad::Error(fmt::format("-o{} needs -Sz N, a number of zones, or -Szb", letter));
     const std::string_view hint = options.sphereMode ? " (sphere mode)" : "";
     throw rad::Error(fmt::format("unrecognized output option '{}'{}: the letters are {}{}; see -help", letter,
                                  hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
   }
-  const std::string_view colors = points ? "veEC" : options.sphereMode ? "v" : "vrx";
   if (options.out == NumberFormat::rgbe && (options.outputs.size() != 1 || !options.treeOutputs.empty() ||
-                                            colors.find(options.outputs[0]) == std::string_view::npos)) {
+                                            colors.find(options.outputs[0]) == std::string::npos)) {
     std::string list;
     for (const char letter : colors) list += fmt::format("{}-o{}", list.empty() ? "" : ", ", letter);
     throw rad::Error(fmt::format("color format only with {}", list));
@@ -295,11 +299,13 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
-  const size_t error = options.outputs.find_first_of("eZ");
+  const auto error = std::find_if(options.outputs.begin(), options.outputs.end(), [](char letter) {
+    return haveErrors({&letter, 1});
+  });
   if (options.sphereMode && !options.sphere.glare.wanted && !options.sphere.everyDirection &&
-      !haveStandardErrors(color) && error != std::string::npos)
+      !haveStandardErrors(color) && error != options.outputs.end())
     throw rad::Error(fmt::format(
-        "-o{} needs {}", options.outputs[error],
+        "-o{} needs {}", *error,
         color.bands > 3 ? "-co or -pY with -cs above 3: standard errors exist for bands, or for luminance"
                         : "-pRGB or -pY: standard errors exist for red, green and blue, or for luminance"));
 }

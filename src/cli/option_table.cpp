@@ -1021,7 +1021,7 @@ void addAnswerOptions(const Add& add) {
            "Toggles separate answers for each contributor instead of their sum, in one pass. The "
            "contributors are the goals in the order of -Sg, or without goals the modifiers of light "
            "sources in the order of the scene; the header lists them after CONTRIBUTORS=. Each of the "
-           "letters v e E C H u z Z (in ray mode v V r x) then writes the values of all contributors in "
+           "letters v e E C S h H u z Z (in ray mode v V r x) then writes the values of all contributors in "
            "turn: with two goals, -oHv writes 18 numbers of H for the first goal, 18 for the second, and 3 "
            "of v for each. The parts add up to the answers without -Sp, except for the ambient value "
            "(-av), which has no contributor. In ray mode light may be interpolated (-aa above 0); rcontrib "
@@ -1064,6 +1064,16 @@ void addAnswerOptions(const Add& add) {
        .remark = "number of bins",
        .mode = Mode::points,
        .paragraph = "Number of bins of -Szb, as a constant expression: at most 100,000."});
+  add({.name = "-So",
+       .arguments = "az",
+       .group = Group::sphere,
+       .value = +[](O& o) -> double& { return o.sphere.azimuth; },
+       .range = {-360, 360},
+       .unit = "degrees",
+       .remark = "azimuth of semi-cylindrical irradiance",
+       .mode = Mode::points,
+       .elsewhere = "rays have no semi-cylindrical irradiance",
+       .paragraph = "Azimuth that the half cylinder of -oS faces, counterclockwise from the x axis."});
   add({.name = "-Sb",
        .group = Group::sphere,
        .value = +[](O& o) -> bool& { return o.sphere.basicRadiance; },

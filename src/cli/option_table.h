@@ -168,5 +168,7 @@ FeatureReport featureReport(std::span<const std::string> wanted,
 
 // The options as a part of man/rsphere.1, in man(7) macros.
 std::string manualText();
+// The rows of the manual on the quantities of points.
+std::string quantitiesText();
 
 }  // namespace rsphere

@@ -3,14 +3,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "answer/header.h"
 #include "cli/option_table.h"
+#include "points/quantities.h"
 
 namespace rsphere {
 namespace {
 
-// The names of -o letters in -defaults: rtrace's, which has none for c, and those of sphere mode.
+// The names of the -o letters of rays and directions in -defaults: rtrace's, which has none for c. Those of
+// points: points/quantities.h.
 struct LetterName {
   char letter;
   std::string_view name;
@@ -37,14 +40,6 @@ constexpr std::array kLetterNames = {
     LetterName{'M', "material"},
     LetterName{'~', "tilde"},
     LetterName{'i', "record"},
-    LetterName{'e', "standard_error"},
-    LetterName{'E', "scalar_irradiance"},
-    LetterName{'C', "cylindrical_irradiance"},
-    LetterName{'H', "six_irradiances"},
-    LetterName{'u', "light_vector"},
-    LetterName{'k', "directions"},
-    LetterName{'z', "zones"},
-    LetterName{'Z', "zone_errors"},
 };
 
 // Different names with -Su.
@@ -80,9 +75,8 @@ std::string_view letterName(char letter, const Options& options) {
                                                     : nameIn(kGlareLetterNames, letter);
     if (!name.empty()) return name;
   }
-  const bool sphereRecord = options.sphereMode && !options.sphere.everyDirection;
-  if (sphereRecord && letter == 'o') return "point";
-  if (sphereRecord && letter == 'v') return "mean_radiance";
+  if (options.sphereMode && !options.sphere.everyDirection)
+    if (const PointQuantity* const quantity = pointQuantity(letter)) return quantity->name;
   return nameIn(kLetterNames, letter);
 }
 
@@ -358,6 +352,27 @@ std::string manualText() {
       if (entry.group != group) continue;
       text += manualEntry(entry, facts(entry));
     }
+  }
+  return text;
+}
+
+std::string quantitiesText() {
+  constexpr size_t kWidth = 57;  // columns before the unit
+  std::string text;
+  for (const PointQuantity& quantity : pointQuantities()) {
+    const bool isColor = quantity.each != nullptr;
+    const std::string columns = quantity.values == PointQuantity::kOfZones
+                                    ? "3N"
+                                    : fmt::format("{}", quantity.values * (isColor ? 3 : 1));
+    std::string line = fmt::format("{} {:>2}  ", quantity.letter, columns);
+    for (const char c : quantity.definition) {
+      if (c != '\n')
+        line += c;
+      else
+        text += escaped(std::exchange(line, "      ")) + '\n';
+    }
+    if (!quantity.unit.empty()) line = fmt::format("{:<{}}({})", line, kWidth, quantity.unit);
+    text += escaped(line) + '\n';
   }
   return text;
 }

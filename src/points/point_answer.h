@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/radiometry.h"
 
 namespace rsphere {
@@ -22,6 +23,14 @@ struct PointAnswer {
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
   double clamped = 0;                // brightness that -Sf removed from the mean, W/sr/m2
   size_t directions = 0;             // k
+  // S  (1/pi) integral of L sin(angle to z) (1 + cos(azimuth to `towards`)): of the curved surface of a half
+  // cylinder. towards: unit, horizontal.
+  Irradiance semicylindricalIrradiance(const V3d& towards) const {
+    return cylindricalIrradiance +
+           ((facing[0] - facing[1]) * towards.x + (facing[2] - facing[3]) * towards.y) / kPi;
+  }
+  // h  1/4 integral of L (1 + cos(angle to z)): of the curved surface of a half sphere on a horizontal base.
+  Irradiance hemisphericalIrradiance() const { return scalarIrradiance + (facing[4] - facing[5]) / 4.; }
   // z  mean radiances of the zones (-Sz), and Z: their standard errors
   std::vector<Radiance> zones;
   struct ZoneError {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "base/angles.h"
+#include "base/radiometry.h"
 #include "glare/glare_options.h"
 #include "sphere/direction_bins.h"
 
@@ -28,6 +30,7 @@ struct SphereOptions {
   int zones = 0;                                // -Sz  number of zones or bins; 0: none
   std::string zoneOf, zoneCount;                // -Szb -Szn  expressions for bins; empty: not given
   std::shared_ptr<const DirectionBins> bins{};  // from these expressions; their number is `zones`
+  double azimuth = 0;                           // -So  degrees, from x towards y
   bool verify = false;                          // -Sv
   GlareOptions glare;                           // -Su -Sub -Sut
 
@@ -47,6 +50,9 @@ struct SphereOptions {
     return static_cast<int>(
         std::clamp(kUsual * std::max({part, std::pow(part, 1.5), finer * finer}), 1., kMost));
   }
+
+  // The horizontal direction that the half cylinder of -oS faces.
+  V3d facing() const { return {std::cos(radians(azimuth)), std::sin(radians(azimuth)), 0}; }
 
   // Cap on the directions at one point, over all sets of -Sa.
   int mostOfAllSets() const { return std::max(mostDirections, mostForAccuracy); }

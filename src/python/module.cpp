@@ -156,6 +156,8 @@ py::object arraysOf(PointAnswers&& a) {
   arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size, {parts});
   arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size, {parts});
   arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size, {parts});
+  arrays["semicylindrical_irradiance"] = arrayOf(std::move(a.semicylindricalIrradiance), a.size, {parts});
+  arrays["hemispherical_irradiance"] = arrayOf(std::move(a.hemisphericalIrradiance), a.size, {parts});
   arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, {parts, 6});
   arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
   arrays["bins"] = arrayOf(std::move(a.zones), a.size, {parts, a.zoneCount});
@@ -420,6 +422,7 @@ Returns an object with an array for each letter of outputs ("veECHuk" if not giv
 the integral of radiance over 4 pi sr.
 v mean (n, 3): F/(4 pi) (W/sr/m2), e mean_standard_error: that of mean, estimated,
 E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C cylindrical_irradiance,
+S semicylindrical_irradiance (towards So degrees), h hemispherical_irradiance,
 H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
 With Sp=True, what each modifier of a light source gives: contributors are their names, and arrays but
 directions and point have a second axis for them. With bins=N: bins (n, N, 3), mean radiances of zones of

@@ -62,6 +62,8 @@ struct PointAnswers {
                                    // times as large
   Quantity scalarIrradiance;       // E  F/4 (W/m2)
   Quantity cylindricalIrradiance;  // C  about the z axis: 1/pi times the integral of L sin(angle to z) (W/m2)
+  Quantity semicylindricalIrradiance;  // S  of the curved surface of a half cylinder towards -So (W/m2)
+  Quantity hemisphericalIrradiance;    // h  of the curved surface of the upper half of a sphere (W/m2)
   Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
   Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
   Quantity directions;   // k  number of directions used

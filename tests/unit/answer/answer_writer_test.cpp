@@ -193,7 +193,7 @@ TEST(AnswerWriter, ComponentsAreCountedAsInRtrace) {
 // A letter that the command line accepts but the writer does not know would leave out its columns without a
 // message.
 TEST(AnswerWriter, EveryLetterThatIsAcceptedIsWrittenAndInTheManual) {
-  const std::string manual = contents(std::string(RSPHERE_TESTS) + "/../man/rsphere.1.in");
+  const std::string manual = contents(std::string(RSPHERE_TESTS) + "/../man/rsphere.1");
   const std::vector<std::string> modes[] = {{"rtrace"}, {"rsphere"}, {"rsphere", "-Sd"}};
   for (const std::vector<std::string>& mode : modes) {
     int accepted = 0;

@@ -3,15 +3,19 @@
 namespace rsphere {
 namespace {
 
-// man/rsphere.1 is the template man/rsphere.1.in, into which the options of the table are inserted. After a
-// change of the template or the table, copy the file that this test writes to the build folder.
+// man/rsphere.1 is the template man/rsphere.1.in, into which the options and the quantities of points are
+// inserted. After a change of the template or a table, copy the file that this test writes to the build
+// folder.
 TEST(Manual, IsTheGeneratedOne) {
   const std::string folder = std::string(RSPHERE_TESTS) + "/../man/";
   std::string text = contents(folder + "rsphere.1.in");
-  const std::string mark = ".\\\" @OPTIONS@\n";
-  const size_t at = text.find(mark);
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, mark.size(), manualText());
+  for (const auto& [mark, generated] :
+       {std::pair<std::string, std::string>{".\\\" @OPTIONS@\n", manualText()},
+        {".\\\" @QUANTITIES@\n", quantitiesText()}}) {
+    const size_t at = text.find(mark);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, mark.size(), generated);
+  }
   if (contents(folder + "rsphere.1") == text) return;
   std::ofstream("rsphere.1", std::ios::binary) << text;
   FAIL() << "differs from rsphere.1 in the folder of this test";

@@ -142,7 +142,7 @@ TEST(ParseOptions, OutputLettersBelongToTheMode) {
   EXPECT_EQ(parse({"rsphere", "s.oct"}).outputs, "v");
   EXPECT_EQ(parse({"rsphere", "-Sd", "s.oct"}).outputs, "odwv");
   EXPECT_NO_THROW(parse({"rtrace", "-oodvVwWlLcpnNsmMrRxX~", "s.oct"}));
-  EXPECT_NO_THROW(parse({"rsphere", "-ooveECHuk", "s.oct"}));
+  EXPECT_NO_THROW(parse({"rsphere", "-ooveECShHuk", "s.oct"}));
   EXPECT_NO_THROW(parse({"rsphere", "-Sd", "-oiodwvlLpnNsmM", "s.oct"}));
   EXPECT_EQ(beginningOfFault({"rtrace", "-ovz", "s.oct"}), "unrecognized output option 'z'");
   EXPECT_EQ(beginningOfFault({"rtrace", "-oE", "s.oct"}), "unrecognized output option 'E'");
@@ -197,9 +197,10 @@ TEST(ParseOptions, PixelsHoldOneColor) {
     EXPECT_NO_THROW(parse({"rtrace", "-fac", letters, "s.oct"}));
   for (const char* letters : {"-ovv", "-oo", "-oW", "-ol"})
     EXPECT_EQ(faultOfOptions({"rtrace", "-fac", letters, "s.oct"}), "color format only with -ov, -or, -ox");
-  for (const char* letters : {"-ov", "-oE", "-oC", "-oe"})
+  for (const char* letters : {"-ov", "-oE", "-oC", "-oS", "-oh", "-oe"})
     EXPECT_NO_THROW(parse({"rsphere", "-fac", letters, "s.oct"}));
-  EXPECT_EQ(faultOfOptions({"rsphere", "-fac", "-oH", "s.oct"}), "color format only with -ov, -oe, -oE, -oC");
+  EXPECT_EQ(faultOfOptions({"rsphere", "-fac", "-oH", "s.oct"}),
+            "color format only with -ov, -oe, -oE, -oC, -oS, -oh");
 }
 
 TEST(ParseOptions, IrradianceCountsAsInRtrace) {

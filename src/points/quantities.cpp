@@ -1,0 +1,71 @@
+#include "points/quantities.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace rsphere {
+namespace {
+
+using Form = PointQuantity::Form;
+using Add = const PointQuantity::Add&;
+
+using A = const PointAnswer&;
+using O = const SphereOptions&;
+
+// F and L: see the manual.
+constexpr PointQuantity kQuantities[] = {
+    {'o', "point", Form::place, 3, "the point", ""},
+    {'v', "mean_radiance", Form::colors, 1, "mean radiance: F / (4 pi)", "W/sr/m2",
+     [](A a, O, Add add) { add(a.mean.color, 0); }},
+    {'e', "standard_error", Form::errors, 1, "standard error of v, estimated (-pRGB or -pY)", "W/sr/m2",
+     [](A a, O, Add add) { add(a.standardError.color, a.brightnessError); }},
+    {'E', "scalar_irradiance", Form::colors, 1, "mean spherical (scalar) irradiance: F / 4", "W/m2",
+     [](A a, O, Add add) { add(a.scalarIrradiance.color, 0); }},
+    {'C', "cylindrical_irradiance", Form::colors, 1,
+     "mean cylindrical irradiance about the z axis:\n(1/pi) integral of L sin(angle between d and z)", "W/m2",
+     [](A a, O, Add add) { add(a.cylindricalIrradiance.color, 0); }},
+    {'S', "semicylindrical_irradiance", Form::colors, 1,
+     "semi-cylindrical irradiance towards -So: (1/pi)\nintegral of L sin(angle between d and z)\n"
+     "(1 + cos(azimuth between d and -So))",
+     "W/m2", [](A a, O o, Add add) { add(a.semicylindricalIrradiance(o.facing()).color, 0); }},
+    {'h', "hemispherical_irradiance", Form::colors, 1,
+     "hemispherical irradiance from above: (1/4)\nintegral of L (1 + cos(angle between d and z))", "W/m2",
+     [](A a, O, Add add) { add(a.hemisphericalIrradiance().color, 0); }},
+    {'H', "six_irradiances", Form::colors, 6,
+     "irradiances of faces towards +x -x +y -y +z -z,\neach the integral of L max(0, d.n)", "W/m2",
+     [](A a, O, Add add) {
+       for (const Irradiance& face : a.facing) add(face.color, 0);
+     }},
+    {'u', "light_vector", Form::vector, 3,
+     "light vector: integral of d times the brightness\nof L, towards the side of more light", "W/m2"},
+    {'k', "directions", Form::count, 1, "number of directions used", ""},
+    {'z', "zones", Form::colors, PointQuantity::kOfZones, "mean radiances of the N zones of -Sz, in turn",
+     "W/sr/m2",
+     [](A a, O, Add add) {
+       for (const Radiance& zone : a.zones) add(zone.color, 0);
+     }},
+    {'Z', "zone_errors", Form::errors, PointQuantity::kOfZones,
+     "standard errors of z, estimated (-pRGB or -pY)", "W/sr/m2",
+     [](A a, O, Add add) {
+       for (const auto& error : a.zoneErrors) add(error.channels.color, error.brightness);
+     }},
+};
+
+}  // namespace
+
+std::span<const PointQuantity> pointQuantities() { return kQuantities; }
+
+const PointQuantity* pointQuantity(char letter) {
+  const auto* const found = std::find_if(std::begin(kQuantities), std::end(kQuantities),
+                                         [&](const PointQuantity& q) { return q.letter == letter; });
+  return found == std::end(kQuantities) ? nullptr : found;
+}
+
+bool haveErrors(std::string_view letters) {
+  return std::any_of(letters.begin(), letters.end(), [](char letter) {
+    const PointQuantity* const quantity = pointQuantity(letter);
+    return quantity && quantity->form == Form::errors;
+  });
+}
+
+}  // namespace rsphere
