@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "field/tuning.h"
 
 namespace rsphere {
+
+using Imath::V2d;
+
 namespace {
 
 // The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its
@@ -21,6 +25,10 @@ constexpr double kUsualAccuracy = .1;
 
 // Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
 constexpr double kMostRays = 4096;
+
+// Sites give slopes if the determinant of their covariance is above this; it is 1/144 for places all over the
+// patch.
+constexpr float kLeastDeterminant = 2e-4f;
 
 // Binary logarithms of the numbers of hash buckets; the tables take 2 and 4 MB. A picture of an office looks
 // up 190,000 patches and 370,000 divisions. With 65,536 buckets, a third of the time was spent waiting for
@@ -52,6 +60,38 @@ struct CoarseSolution::Division {
   bool isEnclosed = false;  // if true, finer patches are not tried in place of hidden ones
 };
 
+namespace {
+
+// Places all over a patch.
+struct Sites {
+  std::vector<PatchSite> all;
+  V2f middle{.5, .5};  // their mean, relative to the sides of the patch
+};
+
+// Sets the middle and the weights of sites so that they give the linear function that fits their light best
+// (least squares); without slopes if they lie nearly on a line. at: their places, relative to the sides of the
+// patch.
+void fitLinear(const std::vector<V2f>& at, Sites& sites) {
+  if (at.empty()) return;
+  const auto count = static_cast<float>(at.size());
+  sites.middle = std::accumulate(at.begin(), at.end(), V2f(0, 0)) / count;
+  V2f squares(0, 0);
+  float product = 0;
+  for (const V2f& place : at) {
+    const V2f d = place - sites.middle;
+    squares += d * d / count;
+    product += d.x * d.y / count;
+  }
+  const float determinant = squares.x * squares.y - product * product;
+  if (!(determinant > kLeastDeterminant)) return;
+  for (size_t i = 0; i < at.size(); ++i) {
+    const V2f d = at[i] - sites.middle;
+    sites.all[i].weight = V2f(squares.y * d.x - product * d.y, squares.x * d.y - product * d.x) / determinant;
+  }
+}
+
+}  // namespace
+
 struct Patch {
   bool usable = false;  // it has a gather site
   GatherSite site;
@@ -59,15 +99,16 @@ struct Patch {
   double share = 0;  // in the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
-  // Places all over the patch, whose mean light stands for all of it; set by spread().
-  std::atomic<const std::vector<GatherSite>*> sites{nullptr};
+  std::atomic<const Sites*> sites{nullptr};  // set by spread()
   std::atomic<const PatchLinks*> links{nullptr};
   struct Light {
     std::atomic<bool> known{false};
-    std::array<std::atomic<float>, 3> mean{};
+    std::array<std::array<std::atomic<float>, 3>, 3> color{};  // mean and slopes, by channel
     std::atomic<const Bands*> bands{nullptr};
 
     ~Light() { delete bands.load(std::memory_order_relaxed); }
+    LinearColor load() const;
+    void store(const LinearColor& from);
   };
   std::unique_ptr<Light[]> light;  // index: bounces - 1
 
@@ -76,6 +117,22 @@ struct Patch {
     delete links.load(std::memory_order_relaxed);
   }
 };
+
+LinearColor Patch::Light::load() const {
+  LinearColor of;
+  for (int c = 0; c < 3; ++c) {
+    of.mean[c] = color[0][c].load(std::memory_order_relaxed);
+    for (size_t k = 0; k < 2; ++k) of.slopes[k][c] = color[k + 1][c].load(std::memory_order_relaxed);
+  }
+  return of;
+}
+
+void Patch::Light::store(const LinearColor& from) {
+  for (int c = 0; c < 3; ++c) {
+    color[0][c].store(from.mean[c], std::memory_order_relaxed);
+    for (size_t k = 0; k < 2; ++k) color[k + 1][c].store(from.slopes[k][c], std::memory_order_relaxed);
+  }
+}
 
 CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options,
                                double room)
@@ -197,28 +254,39 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
 // stands on the surface.
 void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
   if (patch.sites.load(std::memory_order_acquire)) return;
-  auto sites = std::make_unique<std::vector<GatherSite>>();
+  auto sites = std::make_unique<Sites>();
+  std::vector<V2f> at;
+  const auto add = [&](const V2d& place) {
+    const auto site = chart.siteIn(grid_, key, place);
+    if (!site || !rays.sees(patch.site.point, site->point)) return;
+    sites->all.push_back({*site, {}});
+    at.emplace_back(place);
+  };
   Random random(mixBits(patch.seed ^ rotation_));
-  const double shift1 = random.uniform(), shift2 = random.uniform();
-  for (int k = 0; k < tuning::CoarseSolution::kSites; ++k) {
-    // Opposite places in turn, whose mean is exact where light varies linearly.
-    const Imath::V2d at = evenly(static_cast<size_t>(k / 2), shift1, shift2);
-    const auto site = chart.siteIn(grid_, key, k % 2 == 0 ? at : Imath::V2d(1, 1) - at);
-    if (site && rays.sees(patch.site.point, site->point)) sites->push_back(*site);
+  // A place in each of some squares, and the opposite place: the mean of both is exact where light varies
+  // linearly.
+  const int across = raysOf(patch) < tuning::CoarseSolution::kManyRays ? 2 : 4;
+  for (int i = 0; i < across; ++i) {
+    for (int j = 0; j < across / 2; ++j) {
+      const V2d place = V2d(i + random.uniform(), j + random.uniform()) / across;
+      add(place);
+      add(V2d(1, 1) - place);
+    }
   }
-  if (sites->empty()) sites->push_back(patch.site);
-  publish<std::vector<GatherSite>>(patch.sites, std::move(sites));
+  if (sites->all.empty()) sites->all.push_back({patch.site, {}});
+  fitLinear(at, *sites);
+  publish<Sites>(patch.sites, std::move(sites));
 }
 
-Patch* CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker) {
+PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
-  if (!chart) return nullptr;
+  if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < tuning::CoarseSolution::kHalf * std::max(division.side, suffices)) return nullptr;
+  if (chart->extent() < tuning::CoarseSolution::kHalf * std::max(division.side, suffices)) return {};
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return nullptr;
+  if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return {};
   level = std::max(
       level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
@@ -234,13 +302,15 @@ Patch* CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker as
     if (!patch.usable || !rays.sees(patch.site.point, above)) continue;
     // All rays of a gather that hit a patch share its noise. If they outnumber the rays of the patch,
     // following them is less noisy.
-    const double hits = effort_.asked * chart->stepU(grid_, tried) * chart->stepV(grid_, tried) /
-                        (kPi * place.distance * place.distance);
-    if (asker == Asker::path && hits > raysOf(patch)) return nullptr;
+    const double sideU = chart->stepU(grid_, tried), sideV = chart->stepV(grid_, tried);
+    const double hits = effort_.asked * sideU * sideV / (kPi * place.distance * place.distance);
+    if (asker == Asker::path && hits > raysOf(patch)) return {};
     spread(patch, *chart, key, rays);
-    return &patch;
+    const V2d at(chart->u() / sideU - static_cast<double>(key.i),
+                 chart->v() / sideV - static_cast<double>(key.j));
+    return {&patch, V2f(at) - patch.sites.load(std::memory_order_acquire)->middle};
   }
-  return nullptr;
+  return {};
 }
 
 // Patches with a larger share in the light of others get more rays, because their noise matters more.
@@ -251,8 +321,11 @@ double CoarseSolution::raysOf(const Patch& patch) const {
 
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
-  auto made = std::make_unique<const PatchLinks>(
-      rays.link(*patch.sites.load(std::memory_order_acquire), static_cast<int>(raysOf(patch)), patch.seed));
+  const std::vector<PatchSite>& sites = patch.sites.load(std::memory_order_acquire)->all;
+  const auto each =
+      std::max(1, static_cast<int>(std::lround(raysOf(patch) / static_cast<double>(sites.size()))));
+  auto made =
+      std::make_unique<const PatchLinks>(rays.link(sites, each * static_cast<int>(sites.size()), patch.seed));
   const auto sent = static_cast<size_t>(made->rays);
   if (publish<PatchLinks>(patch.links, std::move(made))) {
     linked_.fetch_add(1, std::memory_order_relaxed);
@@ -261,40 +334,47 @@ const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   return *patch.links.load(std::memory_order_acquire);
 }
 
-Color CoarseSolution::light(Patch& patch, int bounces, FieldRays& rays) {
+Color CoarseSolution::light(const PatchPlace& place, int bounces, FieldRays& rays) {
   if (bounces <= 0) return ambient_;
   bounces = std::min(bounces, bounces_);
-  Patch::Light& kept = patch.light[bounces - 1];
-  if (kept.known.load(std::memory_order_acquire)) {
-    const V3d mean(kept.mean[0].load(std::memory_order_relaxed), kept.mean[1].load(std::memory_order_relaxed),
-                   kept.mean[2].load(std::memory_order_relaxed));
-    const Bands* bands = kept.bands.load(std::memory_order_relaxed);
-    return bands ? Color(mean, *bands) : Color(mean);
+  Patch::Light& kept = place.patch->light[bounces - 1];
+  if (!kept.known.load(std::memory_order_acquire)) {
+    Color inBands;
+    const LinearColor sum = sumOf(linksOf(*place.patch, rays), bounces, rays, inBands);
+    kept.store(sum);
+    const Bands bands = bandsBeside(sum.mean, inBands);
+    if (bands) publish<Bands>(kept.bands, std::make_unique<const Bands>(bands));
+    kept.known.store(true, std::memory_order_release);
   }
-  const PatchLinks& links = linksOf(patch, rays);
-  V3f sum(0, 0, 0);
-  Color inBands;  // the same sum with bands, if anything has bands
-  const auto add = [&](const V3f& part, const auto& color) {
-    sum += part;
-    if (hasBands_) inBands += color();
-  };
-  for (size_t i = 0; i < std::min<size_t>(links.light.size(), bounces); ++i)
-    add(links.light[i], [&] { return colorAt(links.light[i], links.bandsOfLight, i); });
-  if (const auto last = static_cast<size_t>(bounces - 1); last < links.ends.size())
-    add(links.ends[last] * V3f(ambient_.rgb()),
-        [&] { return colorAt(links.ends[last], links.bandsOfEnds, last) * ambient_; });
+  const LinearColor light = kept.load();
+  const V3f here = light.at(place.at);
+  const Bands* bands = kept.bands.load(std::memory_order_relaxed);
+  return bands ? Color(V3d(here), bandsBeside(here, Color(V3d(light.mean), *bands))) : Color(V3d(here));
+}
+
+// inBands: receives the mean with bands, if anything has bands.
+LinearColor CoarseSolution::sumOf(const PatchLinks& links, int bounces, FieldRays& rays, Color& inBands) {
+  LinearColor sum;
+  const auto last = static_cast<size_t>(bounces - 1);
+  for (size_t i = 0; i < std::min(links.light.size(), last + 1); ++i) {
+    sum.mean += links.light[i].mean;
+    for (int k = 0; k < 2; ++k) sum.slopes[k] += links.light[i].slopes[k];
+    if (hasBands_) inBands += colorAt(links.light[i].mean, links.bandsOfLight, i);
+  }
+  if (last < links.ends.size()) {
+    const V3f ambient(ambient_.rgb());
+    sum.mean += links.ends[last].mean * ambient;
+    for (int k = 0; k < 2; ++k) sum.slopes[k] += links.ends[last].slopes[k] * ambient;
+    if (hasBands_) inBands += colorAt(links.ends[last].mean, links.bandsOfEnds, last) * ambient_;
+  }
   for (size_t i = 0; i < links.links.size(); ++i) {
     const PatchLinks::Link& link = links.links[i];
     if (link.bounces >= bounces) continue;
-    const Color arriving = light(*link.patch, bounces - 1 - link.bounces, rays);
-    add(link.coefficient * V3f(arriving.rgb()),
-        [&] { return colorAt(link.coefficient, links.bandsOfLinks, i) * arriving; });
+    const Color arriving = light(link.to, bounces - 1 - link.bounces, rays);
+    sum.add(link.coefficient * V3f(arriving.rgb()), link.weight);
+    if (hasBands_) inBands += colorAt(link.coefficient, links.bandsOfLinks, i) * arriving;
   }
-  for (int c = 0; c < 3; ++c) kept.mean[c].store(sum[c], std::memory_order_relaxed);
-  const Bands bands = bandsBeside(sum, inBands);
-  if (bands) publish<Bands>(kept.bands, std::make_unique<const Bands>(bands));
-  kept.known.store(true, std::memory_order_release);
-  return Color(V3d(sum), bands);
+  return sum;
 }
 
 }  // namespace rsphere

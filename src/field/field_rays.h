@@ -15,7 +15,7 @@ class FieldRays {
   virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
   // Links of a patch from about `rays` rays, which start in turn at its sites, at least one, and sample the
   // hemispheres over them.
-  virtual PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t seed) = 0;
+  virtual PatchLinks link(std::span<const PatchSite> sites, int rays, uint64_t seed) = 0;
   // The distance to the first surface above the site along its normal, at most `farthest` (world units).
   virtual double clearance(const GatherSite& site, double farthest) = 0;
   // The distances of the surfaces around a site, estimated from a few directions.

@@ -59,17 +59,18 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
 }
 
 // IndirectLight::link() adds the light and the links beyond the first hits.
-PatchLinks TracedFieldRays::link(std::span<const GatherSite> sites, int rays, uint64_t seed) {
-  const InnerPath path = path_.beginGather(seed, sites.front().normal);
+PatchLinks TracedFieldRays::link(std::span<const PatchSite> sites, int rays, uint64_t seed) {
+  const InnerPath path = path_.beginGather(seed, sites.front().site.normal);
   PatchLinks links;
   path.state.links = &links;
   path.state.descendants = descendantsOfPatch(rays, depth_);
-  Radiance sum;
   // One set of directions for all sites: each has some of them, as far apart as possible.
   DirectionSet set(rays, path.state.random);
   set.step = std::min(static_cast<int>(sites.size()), rays);
   for (; set.first < set.step; ++set.first) {
-    const GatherSite& site = sites[static_cast<size_t>(set.first)];
+    const GatherSite& site = sites[static_cast<size_t>(set.first)].site;
+    links.weight = sites[static_cast<size_t>(set.first)].weight;
+    Radiance sum;
     const Root root(t_, site, depth_);
     const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, rays);
     sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient, set,
@@ -77,8 +78,8 @@ PatchLinks TracedFieldRays::link(std::span<const GatherSite> sites, int rays, ui
                          countDescendants(path.settings, path.state, next.context);
                          sum += path.follower.follow(next.query, next.context).value * next.coefficient;
                        });
+    links.addLight(0, sum);
   }
-  links.addLight(0, sum);
   links.rays = path.state.descendants.rays;
   return links;
 }

@@ -17,7 +17,7 @@ class TracedFieldRays final : public FieldRays {
       : t_(prepared), path_(path), depth_(depth) {}
 
   GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) override;
-  PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t seed) override;
+  PatchLinks link(std::span<const PatchSite> sites, int rays, uint64_t seed) override;
   double clearance(const GatherSite& site, double farthest) override;
   Surroundings surroundings(const GatherSite& site) override;
   bool sees(const V3d& from, const V3d& to) override;

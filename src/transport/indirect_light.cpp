@@ -212,17 +212,17 @@ bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, 
 
 // Adds light from the coarse solution instead.
 bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
-  Patch* const patch = patchAt(end, side);
-  if (!patch) return false;
+  const PatchPlace place = patchAt(end, side);
+  if (!place.patch) return false;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   value += side.coefficient *
-           Radiance(settings_.caches.coarse->light(*patch, bouncesLeft(t_.options(), end.context), rays));
+           Radiance(settings_.caches.coarse->light(place, bouncesLeft(t_.options(), end.context), rays));
   return true;
 }
 
 // The patch of the coarse solution that gives the light of a side; null if there is none.
-Patch* IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
-  if (!isOrdinary(end, side, t_.options().medium())) return nullptr;
+PatchPlace IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
+  if (!isOrdinary(end, side, t_.options().medium())) return {};
   TracedFieldRays rays(t_, follower_, end.context.depth);
   const auto asker = state_.links ? CoarseSolution::Asker::patch : CoarseSolution::Asker::path;
   return settings_.caches.coarse->find(placeOf(end, side), rays, asker);
@@ -295,9 +295,9 @@ void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
   PatchLinks& links = *state_.links;
   const int level = end.context.ambientLevel;
   const bool isLast = level >= bouncesBeyondPatches(t_.options());
-  Patch* const patch = isLast ? nullptr : patchAt(end, side);
+  const PatchPlace to = isLast ? PatchPlace() : patchAt(end, side);
   const Coefficient whole = side.coefficient * end.context.contribution * passedBy(end);
-  if (patch) return links.add(patch, whole, level - 1);
+  if (to.patch) return links.addLink(to, whole, level - 1);
   links.addEnd(level - 1, whole);
   if (isLast) return;
   const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, 1);

@@ -36,7 +36,7 @@ class IndirectLight : PathPart {
  private:
   bool addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   bool addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value);
-  Patch* patchAt(const RayEnd& end, const DiffuseSide& side);
+  PatchPlace patchAt(const RayEnd& end, const DiffuseSide& side);
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
   int firstRays() const;
   void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);

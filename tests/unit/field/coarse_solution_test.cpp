@@ -9,6 +9,7 @@
 #include <string>
 
 #include "field/tuning.h"
+#include "scene/even_sequence.h"
 #include "shade/scattering.h"
 #include "tests/unit/transport/transport_fixture.h"
 
@@ -37,14 +38,15 @@ class FurnaceRays final : public FieldRays {
             hit.surface, nullptr, hit.distance};
   }
 
-  PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t seed) override {
+  PatchLinks link(std::span<const PatchSite> sites, int rays, uint64_t seed) override {
     PatchLinks links;
     ++linked;
     raysOfLast = rays;
     Random random(seed);
     for (int i = 0; i < rays; ++i) {
       double coefficient = 1. / rays;
-      const GatherSite& site = sites[static_cast<size_t>(i) % sites.size()];
+      const auto& [site, weight] = sites[static_cast<size_t>(i) % sites.size()];
+      links.weight = weight;
       V3d from = site.point, normal = site.normal;
       for (int beyond = 0; beyond < bounces_; ++beyond) {
         const double u1 = random.uniform(), u2 = random.uniform();
@@ -53,9 +55,9 @@ class FurnaceRays final : public FieldRays {
         coefficient *= kReflectance;
         // Some paths are continued, as if there were no patch.
         const bool goesOn = random.uniform() < .3;
-        Patch* const patch = solution_->find(place, *this, CoarseSolution::Asker::patch);
-        if (patch && !goesOn) {
-          links.links.push_back({patch, V3f(1, 1, 1) * static_cast<float>(coefficient), beyond});
+        const PatchPlace to = solution_->find(place, *this, CoarseSolution::Asker::patch);
+        if (to.patch && !goesOn) {
+          links.addLink(to, Coefficient(coefficient), beyond);
           ++served;
           break;
         }
@@ -112,16 +114,15 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   for (int i = 0; i < 12; ++i) {
     const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
     const SurfacePlace place = rays.placeAlong(from, randomDirection(random));
-    Patch* const patch = solution.find(place, rays);
-    if (!patch) continue;
+    const PatchPlace on = solution.find(place, rays);
+    if (!on.patch) continue;
     ++found;
-    EXPECT_EQ(solution.find(place, rays), patch) << "the same again";
+    EXPECT_EQ(solution.find(place, rays).patch, on.patch) << "the same again";
     for (int bounces = kBounces; bounces >= 0; --bounces) {
       double expected = std::pow(kReflectance, bounces) * kAmbient;
       for (int n = 0; n < bounces; ++n) expected += std::pow(kReflectance, n);
-      EXPECT_NEAR(solution.light(*patch, bounces, rays).x, expected, 1e-4) << bounces;
-      EXPECT_GT(std::abs(solution.light(*patch, bounces + 1, rays).x - expected),
-                bounces < kBounces ? .05 : -1)
+      EXPECT_NEAR(solution.light(on, bounces, rays).x, expected, 1e-4) << bounces;
+      EXPECT_GT(std::abs(solution.light(on, bounces + 1, rays).x - expected), bounces < kBounces ? .05 : -1)
           << "one bounce more is another";
     }
   }
@@ -140,8 +141,8 @@ int raysOfPatch(const Traced& box, const RayOptions& options, double room, doubl
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
   rays.solve(solution);
   const SurfacePlace place = rays.placeAlong(V3d(2, 1.5, 2), V3d(0, 0, -1));
-  Patch* const patch = solution.find(place, rays, CoarseSolution::Asker::patch);
-  if (patch) solution.light(*patch, 1, rays);
+  const PatchPlace on = solution.find(place, rays, CoarseSolution::Asker::patch);
+  if (on.patch) solution.light(on, 1, rays);
   return rays.raysOfLast;
 }
 
@@ -155,15 +156,16 @@ TEST(CoarseSolution, RaysGoWhereTheirNoiseMatters) {
   options.ambientDivisions = 8192;
   const double usual = Tuning::kRays * 8192;
   EXPECT_EQ(raysOfPatch(box, options, 1e3), Tuning::kLeastRays);
-  EXPECT_NEAR(raysOfPatch(box, options, .01, .01), usual * Tuning::kMoreRays, 1);
+  constexpr int kSites = 4;  // each has the same number of rays
+  EXPECT_NEAR(raysOfPatch(box, options, .01, .01), usual * Tuning::kMoreRays, kSites);
   const int small = raysOfPatch(box, options, 3), large = raysOfPatch(box, options, 4);
   EXPECT_GT(large, Tuning::kLeastRays + 1);
   EXPECT_LT(small, usual * Tuning::kMoreRays - 1);
-  EXPECT_NEAR(small, large * (16. / 9), 3);
+  EXPECT_NEAR(small, large * (16. / 9), 2 * kSites);
   EXPECT_EQ(raysOfPatch(box, options, 3, 4), large) << "what it sees is farther than the room is wide";
-  EXPECT_NEAR(raysOfPatch(box, options, 3, 3, .5), .5 * small, 2) << "it sees the sky";
+  EXPECT_NEAR(raysOfPatch(box, options, 3, 3, .5), .5 * small, kSites) << "it sees the sky";
   options.ambientAccuracy = .05;
-  EXPECT_NEAR(raysOfPatch(box, options, 4), 2 * large, 1);
+  EXPECT_NEAR(raysOfPatch(box, options, 4), 2 * large, 2 * kSites);
   // Few directions at a point do not make patches noisy if more are asked for them.
   options.leastForPatches = 8192;
   const int atFirst = raysOfPatch(box, options, 4);
@@ -194,10 +196,10 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
     const V3d to(dark ? between(random, 1.031, 1.5) : between(random, .6, 1.029), between(random, .1, 2.9),
                  i % 3 ? 0 : 2.5);
     const SurfacePlace place = rays.placeAlong(from, (to - from).normalized());
-    Patch* const patch = solution.find(place, rays);
-    if (!patch) continue;
+    const PatchPlace on = solution.find(place, rays);
+    if (!on.patch) continue;
     ++found[dark];
-    const double light = solution.light(*patch, kBounces, rays).x;
+    const double light = solution.light(on, kBounces, rays).x;
     if (dark)
       EXPECT_EQ(light, 0) << place.point;
     else
@@ -207,61 +209,87 @@ TEST(CoarseSolution, PatchesServeWhatTheySee) {
   EXPECT_GT(found[1], 10) << "or nothing is told";
 }
 
-// The patches of a square below a ceiling whose light grows ever faster towards one side: the mean of what
-// they send into the room is that of the square. With the light at their middles, it would be too dark.
-TEST(CoarseSolution, PatchesSendTheLightOfTheirWholeArea) {
-  // The light of a place is the sum over the rays of its patch, here that of the patch's sites themselves.
-  struct SiteRays final : FieldRays {
-    static double at(double x) { return std::exp(12 * x); }
-    PatchLinks link(std::span<const GatherSite> sites, int rays, uint64_t) override {
-      PatchLinks links;
-      sitesOfLast = sites.size();
-      links.rays = rays;
-      for (const GatherSite& site : sites)
-        links.addLight(0, Radiance(at(site.point.x) / static_cast<double>(sites.size())));
-      return links;
+// Rays whose light is that of the sites of a patch.
+struct SiteRays final : FieldRays {
+  std::function<double(double)> at;  // light of a site, by its x
+  double dark = 2;                   // what lies beyond is hidden
+  size_t sitesOfLast = 0;
+
+  PatchLinks link(std::span<const PatchSite> sites, int rays, uint64_t) override {
+    PatchLinks links;
+    sitesOfLast = sites.size();
+    links.rays = rays;
+    for (const auto& [site, weight] : sites) {
+      links.weight = weight;
+      links.addLight(0, Radiance(at(site.point.x) / static_cast<double>(sites.size())));
     }
-    GatheredLight gather(const GatherSite&, double, uint64_t) override { return {}; }
-    double clearance(const GatherSite&, double farthest) override { return farthest; }
-    bool smallObjectNear(const GatherSite&, double, double) override { return false; }
-    Surroundings surroundings(const GatherSite&) override { return {1, 1, 1}; }
-    bool sees(const V3d&, const V3d& to) override { return to.x < dark; }
-    double dark = 2;  // what lies beyond is hidden
-    size_t sitesOfLast = 0;
-  } rays;
+    return links;
+  }
+  GatheredLight gather(const GatherSite&, double, uint64_t) override { return {}; }
+  double clearance(const GatherSite&, double farthest) override { return farthest; }
+  bool smallObjectNear(const GatherSite&, double, double) override { return false; }
+  Surroundings surroundings(const GatherSite&) override { return {1, 1, 1}; }
+  bool sees(const V3d&, const V3d& to) override { return to.x < dark; }
+};
+
+// What the patches of a square of side 1 send, by their function and by their means.
+struct Sent {
+  double byFunction = 0, byMeans = 0;
+  size_t patches = 0;
+};
+
+// seen: the weight that places are seen with, by their x. end: places have x up to this.
+Sent sentFromSquare(SiteRays& rays, const std::function<double(double)>& seen, double end = 1) {
   const Traced square(
       "void plastic gray 0 0 5 .6 .6 .6 0 0\ngray polygon p 0 0 12 0 0 0 1 0 0 1 1 0 0 1 0\n");
   RayOptions options = optionsOf(1);
   options.ambientAccuracy = .1;
-  const auto meanOver = [&](double end, double* atMiddles) {
-    CoarseSolution solution(square.scene(), square.prepared().tracer().bounds(), fieldOptions(options), 1);
-    constexpr int kPlaces = 400;
-    double sum = 0;
-    std::set<const Patch*> patches;
-    for (int i = 0; i < kPlaces; ++i) {
-      const SurfacePlace place{V3d(end * (i + .5) / kPlaces, (i % 20 + .5) / 20, 0), V3d(0, 0, 1),
-                               SurfaceId(0), nullptr, 100};
-      Patch* const patch = solution.find(place, rays);
-      EXPECT_TRUE(patch);
-      if (!patch) continue;
-      sum += solution.light(*patch, 1, rays).x / kPlaces;
-      patches.insert(patch);
-    }
-    if (atMiddles) {
-      const auto across = static_cast<int>(std::lround(std::sqrt(static_cast<double>(patches.size()))));
-      *atMiddles = 0;
-      for (int i = 0; i < across; ++i) *atMiddles += SiteRays::at((i + .5) / across) / across;
-    }
-    return sum;
-  };
+  CoarseSolution solution(square.scene(), square.prepared().tracer().bounds(), fieldOptions(options), 1);
+  constexpr size_t kPlaces = 4000;
+  Sent sent;
+  std::set<const Patch*> patches;
+  for (size_t i = 0; i < kPlaces; ++i) {
+    const double x = end * (static_cast<double>(i) + .5) / kPlaces;
+    const V3d place(x, evenly(i, 0, 0).y, 0);
+    const PatchPlace on = solution.find({place, V3d(0, 0, 1), SurfaceId(0), nullptr, 100}, rays);
+    EXPECT_TRUE(on.patch);
+    if (!on.patch) continue;
+    sent.byFunction += solution.light(on, 1, rays).x * seen(x) / kPlaces;
+    sent.byMeans += solution.light({on.patch, V2f(0, 0)}, 1, rays).x * seen(x) / kPlaces;
+    patches.insert(on.patch);
+  }
+  sent.patches = patches.size();
+  return sent;
+}
+
+// The patches of a square below a ceiling whose light grows ever faster towards one side: the mean of what
+// they send into the room is that of the square. With the light at their middles, it would be too dark.
+TEST(CoarseSolution, PatchesSendTheLightOfTheirWholeArea) {
+  SiteRays rays;
+  rays.at = [](double x) { return std::exp(12 * x); };
+  const auto evenly = [](double) { return 1.; };
+  const Sent sent = sentFromSquare(rays, evenly);
   const double whole = (std::exp(12) - 1) / 12;
+  EXPECT_NEAR(sent.byFunction, whole, .003 * whole);
+  const auto across = static_cast<int>(std::lround(std::sqrt(static_cast<double>(sent.patches))));
   double atMiddles = 0;
-  EXPECT_NEAR(meanOver(1, &atMiddles), whole, .003 * whole);
+  for (int i = 0; i < across; ++i) atMiddles += rays.at((i + .5) / across) / across;
   EXPECT_GT(whole - atMiddles, .01 * whole) << "or the middle would do";
   // What something hides on the square does not make the places beside it dark.
   rays.dark = .8;
-  EXPECT_GE(meanOver(.1, nullptr), 1);
+  EXPECT_GT(sentFromSquare(rays, evenly, .1).byMeans, 1);
   EXPECT_GT(rays.sitesOfLast, 1u);
+}
+
+// The square is seen from a place near that side: light and solid angle grow together over each patch.
+TEST(CoarseSolution, LightIsLinearOverAPatch) {
+  SiteRays rays;
+  rays.at = [](double x) { return 1 + 50 * x; };
+  const Sent sent = sentFromSquare(rays, [](double x) { return std::exp(60 * (x - 1)); });
+  // The integral of (1 + 50 x) exp(60 (x - 1)), without terms below 1e-20.
+  const double whole = 51. / 60 - 50. / 3600;
+  EXPECT_NEAR(sent.byFunction, whole, 1e-3 * whole);
+  EXPECT_LT(sent.byMeans, whole * .99) << "or the means would do";
 }
 
 // The rays of a gather that hit a patch share its noise. Where they are more than its own rays, paths are
@@ -275,8 +303,8 @@ TEST(CoarseSolution, NoPatchServesMoreRaysThanItHas) {
   for (const double room : {1., 1e3}) {  // the patches of a large room have few rays
     CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), room);
     rays.solve(solution);
-    EXPECT_EQ(solution.find(place, rays) != nullptr, room == 1) << room;
-    EXPECT_TRUE(solution.find(place, rays, CoarseSolution::Asker::patch)) << "its noise averages out";
+    EXPECT_EQ(solution.find(place, rays).patch != nullptr, room == 1) << room;
+    EXPECT_TRUE(solution.find(place, rays, CoarseSolution::Asker::patch).patch) << "its noise averages out";
   }
 }
 
@@ -287,9 +315,9 @@ TEST(CoarseSolution, NoPatchServesWhatIsSeenFromNear) {
   CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(optionsOf(2)), 1);
   rays.solve(solution);
   SurfacePlace place{V3d(2, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, 2.5};
-  EXPECT_TRUE(solution.find(place, rays));
+  EXPECT_TRUE(solution.find(place, rays).patch);
   place.distance = 1e-3;
-  EXPECT_FALSE(solution.find(place, rays));
+  EXPECT_FALSE(solution.find(place, rays).patch);
 }
 
 // Otherwise patches would not follow the light in narrow gaps.
@@ -305,7 +333,7 @@ TEST(CoarseSolution, PatchesSeenFromNearbyAreNarrow) {
     std::set<const Patch*> patches;
     for (double x = 0; x < kLength; x += .01)
       patches.insert(
-          solution.find({V3d(1 + x, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, distance}, rays));
+          solution.find({V3d(1 + x, 1.5, 0), V3d(0, 0, 1), SurfaceId(0), nullptr, distance}, rays).patch);
     return patches.size();
   };
   const double least = kLength / (tuning::CoarseSolution::kNear * kDistance);
