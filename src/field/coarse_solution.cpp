@@ -69,8 +69,8 @@ struct Sites {
 };
 
 // Sets the middle and the weights of sites so that they give the linear function that fits their light best
-// (least squares); without slopes if they lie nearly on a line. at: their places, relative to the sides of the
-// patch.
+// (least squares); without slopes if they lie nearly on a line. at: their places, relative to the sides of
+// the patch.
 void fitLinear(const std::vector<V2f>& at, Sites& sites) {
   if (at.empty()) return;
   const auto count = static_cast<float>(at.size());

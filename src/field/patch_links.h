@@ -43,8 +43,8 @@ struct LinearColor {
 
 // Most rays of a patch end at the first patch that they hit. If no patch can be used there, the ray is
 // followed; `bounces` is the number of its diffuse bounces after the first hit. A coefficient is the factor
-// by which light contributes to the mean radiance that arrives at the patch that owns the links. What is added
-// belongs to the site with `weight`.
+// by which light contributes to the mean radiance that arrives at the patch that owns the links. What is
+// added belongs to the site with `weight`.
 struct PatchLinks {
   struct Link {
     PatchPlace to;
