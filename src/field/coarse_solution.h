@@ -18,8 +18,8 @@
 // with interpolation between patches of different sizes, surfaces whose light grows ever faster towards a
 // window send too much: in a room below north lights sensors were 4% too bright, at every setting. The light
 // that a strip of ceiling sends, compared with a fine grid of sensors on it, shows this at once. With the
-// mean of the area alone, the product of two gradients across a patch is left out, that of its light and that of
-// the solid angle that it is seen with, in paths and in links: sensors below the last north light were 1% too
+// mean of the area alone, the product of two gradients across a patch is left out, that of its light and
+// that of the solid angle that it is seen with, in paths and in links: sensors below the last north light were 1% too
 // dark at -aa .05. A reference with a tenth of that noise, sensor by sensor, shows this. The function may be
 // negative in places; its mean over the patch is not.
 //

@@ -163,8 +163,8 @@ struct CoarseSolution {
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Patches with at least this number of rays send them from 16 places, others from 4. Measured below north
   // lights at -aa .05: with 4 places alone, the noise of sensors is .58 instead of .50% by an overcast sky
-  // and .65 instead of .47% by sun; with 16 places from 64 rays on, it is the same, and takes a tenth more time
-  // at -aa .1. Places must be random: at the same four places of all patches (those of Gauss-Legendre
+  // and .65 instead of .47% by sun; with 16 places from 64 rays on, it is the same, and takes a tenth more
+  // time at -aa .1. Places must be random: at the same four places of all patches (those of Gauss-Legendre
   // quadrature), sensors by sun are 1.2% too dark (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   static constexpr double kManyRays = 256;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
+#include "base/even_sequence.h"
 #include "field/tuning.h"
-#include "scene/even_sequence.h"
 #include "shade/scattering.h"
 #include "tests/unit/transport/transport_fixture.h"
 
