@@ -174,7 +174,8 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
                         tuning::CoarseSolution::kLeastRays
                   : fewer * tuning::CoarseSolution::kLeastRays,
             options.rays,
-            share};
+            share,
+            0};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
           far,
@@ -184,7 +185,8 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
           tuning::CoarseSolution::kMoreRays,
           tuning::CoarseSolution::kLeastRays,
           options.rays,
-          share};
+          share,
+          tuning::CoarseSolution::kFewestForSlopes};
 }
 
 Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
@@ -274,7 +276,7 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
     }
   }
   if (sites->all.empty()) sites->all.push_back({patch.site, {}});
-  fitLinear(at, *sites);
+  if (raysOf(patch) >= effort_.forSlopes) fitLinear(at, *sites);
   publish<Sites>(patch.sites, std::move(sites));
 }
 

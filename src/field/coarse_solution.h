@@ -19,9 +19,9 @@
 // window send too much: in a room below north lights sensors were 4% too bright, at every setting. The light
 // that a strip of ceiling sends, compared with a fine grid of sensors on it, shows this at once. With the
 // mean of the area alone, the product of two gradients across a patch is left out, that of its light and
-// that of the solid angle that it is seen with, in paths and in links: sensors below the last north light were 1% too
-// dark at -aa .05. A reference with a tenth of that noise, sensor by sensor, shows this. The function may be
-// negative in places; its mean over the patch is not.
+// that of the solid angle that it is seen with, in paths and in links: sensors below the last north light
+// were 1% too dark at -aa .05. A reference with a tenth of that noise, sensor by sensor, shows this. The
+// function may be negative in places; its mean over the patch is not.
 //
 // What keeps sensors free of shared noise: a patch serves a gather only if it has sent at least as many rays
 // as the gather sends to it, which only matters for near patches. Outdoors, patches of the ground have 8
@@ -85,6 +85,7 @@ class CoarseSolution {
     double least;        // lower bound on the rays of a patch
     double asked;        // rays of a gather that looks patches up
     double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
+    double forSlopes;    // least number of rays of a patch whose light has slopes
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

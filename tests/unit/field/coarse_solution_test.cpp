@@ -243,6 +243,7 @@ Sent sentFromSquare(SiteRays& rays, const std::function<double(double)>& seen, d
   const Traced square(
       "void plastic gray 0 0 5 .6 .6 .6 0 0\ngray polygon p 0 0 12 0 0 0 1 0 0 1 1 0 0 1 0\n");
   RayOptions options = optionsOf(1);
+  options.ambientDivisions = 8192;  // patches have enough rays for slopes
   options.ambientAccuracy = .1;
   CoarseSolution solution(square.scene(), square.prepared().tracer().bounds(), fieldOptions(options), 1);
   constexpr size_t kPlaces = 4000;
