@@ -26,8 +26,8 @@ constexpr double kUsualAccuracy = .1;
 // Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
 constexpr double kMostRays = 4096;
 
-// Sites give slopes if the determinant of their covariance is above this; it is 1/144 for places all over the
-// patch.
+// The light of a patch has slopes if the determinant of the covariance of its sites' places is above this. It
+// is 1/144 for places all over the patch, and 0 for places on a line.
 constexpr float kLeastDeterminant = 2e-4f;
 
 // Binary logarithms of the numbers of hash buckets; the tables take 2 and 4 MB. A picture of an office looks
@@ -265,9 +265,10 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
     at.emplace_back(place);
   };
   Random random(mixBits(patch.seed ^ rotation_));
-  // A place in each of some squares, and the opposite place: the mean of both is exact where light varies
-  // linearly.
-  const int across = raysOf(patch) < tuning::CoarseSolution::kManyRays ? 2 : 4;
+  // The patch is divided into squares, with a place in each. The places in opposite squares are opposite too:
+  // their mean is exact where light varies linearly.
+  const double sent = raysOf(patch);
+  const int across = sent < tuning::CoarseSolution::kManyRays ? 2 : 4;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across / 2; ++j) {
       const V2d place = V2d(i + random.uniform(), j + random.uniform()) / across;
@@ -276,7 +277,7 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
     }
   }
   if (sites->all.empty()) sites->all.push_back({patch.site, {}});
-  if (raysOf(patch) >= effort_.forSlopes) fitLinear(at, *sites);
+  if (sent >= effort_.forSlopes) fitLinear(at, *sites);
   publish<Sites>(patch.sites, std::move(sites));
 }
 
@@ -354,19 +355,16 @@ Color CoarseSolution::light(const PatchPlace& place, int bounces, FieldRays& ray
   return bands ? Color(V3d(here), bandsBeside(here, Color(V3d(light.mean), *bands))) : Color(V3d(here));
 }
 
-// inBands: receives the mean with bands, if anything has bands.
+// The light of a patch from its links. inBands: receives the mean with bands, if anything has bands.
 LinearColor CoarseSolution::sumOf(const PatchLinks& links, int bounces, FieldRays& rays, Color& inBands) {
   LinearColor sum;
   const auto last = static_cast<size_t>(bounces - 1);
   for (size_t i = 0; i < std::min(links.light.size(), last + 1); ++i) {
-    sum.mean += links.light[i].mean;
-    for (int k = 0; k < 2; ++k) sum.slopes[k] += links.light[i].slopes[k];
+    sum += links.light[i];
     if (hasBands_) inBands += colorAt(links.light[i].mean, links.bandsOfLight, i);
   }
   if (last < links.ends.size()) {
-    const V3f ambient(ambient_.rgb());
-    sum.mean += links.ends[last].mean * ambient;
-    for (int k = 0; k < 2; ++k) sum.slopes[k] += links.ends[last].slopes[k] * ambient;
+    sum += links.ends[last] * V3f(ambient_.rgb());
     if (hasBands_) inBands += colorAt(links.ends[last].mean, links.bandsOfEnds, last) * ambient_;
   }
   for (size_t i = 0; i < links.links.size(); ++i) {

@@ -20,8 +20,8 @@
 // that a strip of ceiling sends, compared with a fine grid of sensors on it, shows this at once. With the
 // mean of the area alone, the product of two gradients across a patch is left out, that of its light and
 // that of the solid angle that it is seen with, in paths and in links: sensors below the last north light
-// were 1% too dark at -aa .05. A reference with a tenth of that noise, sensor by sensor, shows this. The
-// function may be negative in places; its mean over the patch is not.
+// were 1% too dark at -aa .05. A reference with a tenth of that error shows it, sensor by sensor. The linear
+// function may be negative at the edges of a patch; its mean is not.
 //
 // What keeps sensors free of shared noise: a patch serves a gather only if it has sent at least as many rays
 // as the gather sends to it, which only matters for near patches. Outdoors, patches of the ground have 8

@@ -15,28 +15,36 @@ using Imath::V3f;
 // Defined and owned by the coarse solution.
 struct Patch;
 
-// A place on a patch; patch is null if there is none.
+// A place on a patch. The patch is null if none can be used.
 struct PatchPlace {
   Patch* patch = nullptr;
-  V2f at{0, 0};  // relative to the middle of the patch's sites, in sides of the patch
+  V2f at{0, 0};  // relative to the mean of the patch's sites, in sides of the patch
 };
 
 // A place on a patch where rays start.
 struct PatchSite {
   GatherSite site;
-  V2f weight{0, 0};  // factor of the light that arrives here in the slopes of the patch's light
+  V2f weight{0, 0};  // factor by which light that arrives here counts in the slopes of the patch's light
 };
 
-// Light or a coefficient that varies linearly over a patch.
+// Light (W/sr/m2) or a coefficient that varies linearly over a patch.
 struct LinearColor {
   V3f mean{0, 0, 0};
   V3f slopes[2] = {V3f(0), V3f(0)};  // change from one side of the patch to the opposite one
 
-  // Adds what a site contributes.
+  // Adds what arrives at a site of this weight (PatchSite).
   void add(const V3f& part, const V2f& weight) {
     mean += part;
     slopes[0] += weight.x * part;
     slopes[1] += weight.y * part;
+  }
+  LinearColor& operator+=(const LinearColor& other) {
+    mean += other.mean;
+    for (int k = 0; k < 2; ++k) slopes[k] += other.slopes[k];
+    return *this;
+  }
+  LinearColor operator*(const V3f& factor) const {
+    return {mean * factor, {slopes[0] * factor, slopes[1] * factor}};
   }
   V3f at(const V2f& place) const { return mean + place.x * slopes[0] + place.y * slopes[1]; }
 };
@@ -44,7 +52,7 @@ struct LinearColor {
 // Most rays of a patch end at the first patch that they hit. If no patch can be used there, the ray is
 // followed; `bounces` is the number of its diffuse bounces after the first hit. A coefficient is the factor
 // by which light contributes to the mean radiance that arrives at the patch that owns the links. What is
-// added belongs to the site with `weight`.
+// added has arrived at the site with this `weight`.
 struct PatchLinks {
   struct Link {
     PatchPlace to;

@@ -167,8 +167,8 @@ struct CoarseSolution {
   // time at -aa .1. Places must be random: at the same four places of all patches (those of Gauss-Legendre
   // quadrature), sensors by sun are 1.2% too dark (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   static constexpr double kManyRays = 256;
-  // By daylight, the light of patches with fewer rays has no slopes, which would be noise. Measured: if all
-  // have at most 31 rays, spherical means in a room with a window have twice the noise with slopes.
+  // By daylight, the light of patches with fewer rays has no slopes, because they would be noise. Measured:
+  // if all patches have at most 31 rays, slopes double the noise of spherical means in a room with a window.
   static constexpr double kFewestForSlopes = 32;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);

@@ -9,11 +9,10 @@ struct ErrorEstimate {
   // Relative standard error of the mean due to the coarse solution (-aa above 0), assumed independent of the
   // error of the directions. Its patches cause kPatches. Its rays cause as much again if gathers have
   // kUsualRays rays; this part is inversely proportional to the square root of their number. Measured in a
-  // white room with a lamp, with and without a desk: means of 20 runs have no bias above .03%, and the
-  // deviations of single runs are .9 to 1.2 times the stated ones
-  // (tests/bench/rtrace/runs/2026-11-28-patches.txt).
-  RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0003);
-  static constexpr double kUsualRays = 256;
+  // white room with a lamp, with and without a desk, by -Sn 16384 and patches as for 512 to 8192 rays: .08 to
+  // .04% (tests/bench/rtrace/runs/2026-11-28-patches.txt).
+  RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0005);
+  static constexpr double kUsualRays = 1024;
   // Factor on the variance that is estimated from differences of evenly spread directions: derived. The right
   // value is .6 if all variance is due to straight edges, because evenly spread directions average out part
   // of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most 15%
