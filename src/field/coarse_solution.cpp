@@ -261,7 +261,7 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
   const auto add = [&](const V2d& place) {
     const auto site = chart.siteIn(grid_, key, place);
     if (!site || !rays.sees(patch.site.point, site->point)) return;
-    sites->all.push_back({*site, {}});
+    sites->all.emplace_back().site = *site;
     at.emplace_back(place);
   };
   Random random(mixBits(patch.seed ^ rotation_));
@@ -276,7 +276,7 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
       add(V2d(1, 1) - place);
     }
   }
-  if (sites->all.empty()) sites->all.push_back({patch.site, {}});
+  if (sites->all.empty()) sites->all.emplace_back().site = patch.site;
   if (sent >= effort_.forSlopes) fitLinear(at, *sites);
   publish<Sites>(patch.sites, std::move(sites));
 }

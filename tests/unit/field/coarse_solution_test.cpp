@@ -238,12 +238,14 @@ struct Sent {
   size_t patches = 0;
 };
 
-// seen: the weight that places are seen with, by their x. end: places have x up to this.
-Sent sentFromSquare(SiteRays& rays, const std::function<double(double)>& seen, double end = 1) {
+// seen: the weight that places are seen with, by their x. end: places have x up to this. asked: the rays of a
+// gather; with the default, patches have enough for slopes.
+Sent sentFromSquare(SiteRays& rays, const std::function<double(double)>& seen, double end = 1,
+                    int asked = 8192) {
   const Traced square(
       "void plastic gray 0 0 5 .6 .6 .6 0 0\ngray polygon p 0 0 12 0 0 0 1 0 0 1 1 0 0 1 0\n");
   RayOptions options = optionsOf(1);
-  options.ambientDivisions = 8192;  // patches have enough rays for slopes
+  options.ambientDivisions = asked;
   options.ambientAccuracy = .1;
   CoarseSolution solution(square.scene(), square.prepared().tracer().bounds(), fieldOptions(options), 1);
   constexpr size_t kPlaces = 4000;
@@ -291,6 +293,9 @@ TEST(CoarseSolution, LightIsLinearOverAPatch) {
   const double whole = 51. / 60 - 50. / 3600;
   EXPECT_NEAR(sent.byFunction, whole, 1e-3 * whole);
   EXPECT_LT(sent.byMeans, whole * .99) << "or the means would do";
+  const Sent byFew = sentFromSquare(
+      rays, [](double x) { return x; }, 1, 4);
+  EXPECT_EQ(byFew.byFunction, byFew.byMeans) << "few rays give no slopes";
 }
 
 // The rays of a gather that hit a patch share its noise. Where they are more than its own rays, paths are
