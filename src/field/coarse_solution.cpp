@@ -41,7 +41,7 @@ bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
          seen.rootMeanSquare < tuning::CoarseSolution::kEnclosed * chart.extent();
 }
 
-// Publishes what a thread has made, unless another thread was first. Returns whether it was kept.
+// Publishes an object that a thread has made, unless another thread was first. Returns whether it was kept.
 template <class T>
 bool publish(std::atomic<const T*>& slot, std::unique_ptr<const T> made) {
   const T* first = nullptr;
@@ -96,7 +96,7 @@ struct Patch {
   bool usable = false;  // it has a gather site
   GatherSite site;
   double reach = 0;  // harmonic mean distance of its surroundings
-  double share = 0;  // in the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
+  double share = 0;  // of the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::atomic<const Sites*> sites{nullptr};  // set by spread()
@@ -252,8 +252,8 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
   });
 }
 
-// Chooses the sites of a patch: places on it that its first site sees, so that none lies below or behind what
-// stands on the surface.
+// Chooses the sites of a patch: places on it that its first site sees, so that none lies below or behind an
+// object on the surface.
 void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
   if (patch.sites.load(std::memory_order_acquire)) return;
   auto sites = std::make_unique<Sites>();
@@ -265,8 +265,8 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
     at.emplace_back(place);
   };
   Random random(mixBits(patch.seed ^ rotation_));
-  // The patch is divided into squares, with a place in each. The places in opposite squares are opposite too:
-  // their mean is exact where light varies linearly.
+  // The patch is divided into squares, with one place in each. Places in opposite squares are symmetric about
+  // the middle of the patch, so that their mean is exact where light varies linearly.
   const double sent = raysOf(patch);
   const int across = sent < tuning::CoarseSolution::kManyRays ? 2 : 4;
   for (int i = 0; i < across; ++i) {
@@ -316,7 +316,8 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   return {};
 }
 
-// Patches with a larger share in the light of others get more rays, because their noise matters more.
+// Patches that contribute more to the light of other surfaces get more rays, because their noise matters
+// more.
 double CoarseSolution::raysOf(const Patch& patch) const {
   const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
   return std::clamp(effort_.usual * part, effort_.least, kMostRays);

@@ -13,20 +13,16 @@
 //
 // A place uses a patch only if the segment between them is unoccluded, so that no light leaks through walls.
 //
-// What keeps sensors unbiased: the light of a patch is the linear function that fits the light at places all
-// over its area, so that a patch sends into the room what its surface sends. With the light at its middle, or
-// with interpolation between patches of different sizes, surfaces whose light grows ever faster towards a
-// window send too much: in a room below north lights sensors were 4% too bright, at every setting. The light
-// that a strip of ceiling sends, compared with a fine grid of sensors on it, shows this at once. With the
-// mean of the area alone, the product of two gradients across a patch is left out, that of its light and
-// that of the solid angle that it is seen with, in paths and in links: sensors below the last north light
-// were 1% too dark at -aa .05. A reference with a tenth of that error shows it, sensor by sensor. The linear
-// function may be negative at the edges of a patch; its mean is not.
+// Bias: the light of a patch is a linear function, fitted to the light at places all over its area. The
+// function may be negative at the edges of a patch; its mean is not. Two simpler representations were
+// rejected. The light at the middle of a patch, or interpolation between patches of different sizes, is too
+// bright where light increases ever faster towards a window: in a room below north lights, sensors were 4%
+// too bright at every setting. The mean over the area neglects that light and solid angle may both vary
+// across a patch: sensors below the last north light were 1% too dark at -aa .05.
 //
-// What keeps sensors free of shared noise: a patch serves a gather only if it has sent at least as many rays
-// as the gather sends to it, which only matters for near patches. Outdoors, patches of the ground have 8
-// rays; a sensor close above it had 25% of noise from run to run, where paths have 4%. Repeats with another
-// -Sr show it at once.
+// Noise: a patch serves a gather only if it has sent at least as many rays as the gather sends to it. This
+// matters for near patches, whose noise many rays of the gather share. Outdoors, patches of the ground send 8
+// rays; without this rule, a sensor close above the ground had 25% of noise instead of the 4% of paths.
 //
 // Threads: any number may query at the same time, and none waits. If two threads need the same patch at the
 // same time, both may link it; the links are identical, and the first are kept. An answer depends only on the
@@ -53,9 +49,9 @@ class CoarseSolution {
   CoarseSolution(const Scene& scene, const Box3d& bounds, const FieldOptions& options, double room);
   ~CoarseSolution();
 
-  // The place on the patch whose light a place uses; without a patch if the path has to be followed. There is
-  // no interpolation between patches: it would lend the light of a bright patch to the dark one beside it,
-  // but not the other way round where the two differ in size. Rays that are traced to link a patch may get
+  // Finds the patch whose light is used at a place, and the place on it; no patch if the path has to be
+  // followed. There is no interpolation between patches: where their sizes differ, the light of a bright
+  // patch would be lent to a dark neighbour without the reverse. Rays that are traced to link a patch may use
   // larger patches than paths do (FieldOptions::coarserLinks).
   enum class Asker : uint8_t { path, patch };
   PatchPlace find(const SurfacePlace& place, FieldRays& rays, Asker asker = Asker::path);
@@ -78,12 +74,12 @@ class CoarseSolution {
   struct Effort {
     double spacing;      // side of a patch, relative to the harmonic mean distance of its surroundings
     double leastSide;    // lower bound on the side of a patch, relative to its surface's extent
-    double farSide;      // sufficient side of a patch, relative to the distance it is seen from
+    double farSide;      // sufficient side of a patch, relative to the viewing distance
     double nearSide;     // largest side of a patch, relative to that distance
-    double usual;        // rays of a patch with usualShare in the light of others
+    double usual;        // rays of a patch whose share of the light on other surfaces is usualShare
     double fewer, more;  // bounds on the factor for other shares
     double least;        // lower bound on the rays of a patch
-    double asked;        // rays of a gather that looks patches up
+    double asked;        // number of rays of a gather that uses patches
     double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
     double forSlopes;    // least number of rays of a patch whose light has slopes
   };

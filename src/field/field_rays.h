@@ -13,8 +13,8 @@ class FieldRays {
  public:
   // The indirect light at a site, estimated with -ad + -as rays. nearest: as in HemisphereCells::sum().
   virtual GatheredLight gather(const GatherSite& site, double nearest, uint64_t seed) = 0;
-  // Links of a patch from about `rays` rays, which start in turn at its sites, at least one, and sample the
-  // hemispheres over them.
+  // Links of a patch from about `rays` rays. They start at the patch's sites in turn and sample the
+  // hemispheres over them. REQUIRES at least one site.
   virtual PatchLinks link(std::span<const PatchSite> sites, int rays, uint64_t seed) = 0;
   // The distance to the first surface above the site along its normal, at most `farthest` (world units).
   virtual double clearance(const GatherSite& site, double farthest) = 0;

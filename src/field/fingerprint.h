@@ -8,7 +8,7 @@
 
 namespace rsphere {
 
-// A 64-bit hash of a sequence of values and their order. It is the same on all machines with the same byte
+// A 64-bit hash of a sequence of values and their order. It is equal on all machines that have the same byte
 // order.
 class Fingerprint {
  public:

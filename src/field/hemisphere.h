@@ -40,9 +40,9 @@ struct Surroundings {
 // spherical harmonics.
 struct LightMoments {
   float all[3] = {0, 0, 0};                 // per channel: integral of L, divided by pi (W/sr/m2)
-  V3f first[3] = {V3f(0), V3f(0), V3f(0)};  // the same of L d
+  V3f first[3] = {V3f(0), V3f(0), V3f(0)};  // integral of L d, divided by pi
   V3f squares[3] = {V3f(0), V3f(0), V3f(0)},
-      products[3] = {V3f(0), V3f(0), V3f(0)};  // the same of L dd: xx yy zz, yz zx xy
+      products[3] = {V3f(0), V3f(0), V3f(0)};  // of L dd, divided by pi: xx yy zz, yz zx xy
 
   void add(const LightMoments& other, float share);
   // Irradiance over pi of a surface with this normal (unit).

@@ -52,7 +52,7 @@ class InsertOnce {
   size_t size() const { return size_.load(std::memory_order_relaxed); }
 
  private:
-  // The value is next to its key, since most of the time of a look-up is spent waiting for memory.
+  // The value is stored next to its key, since most of the time of a look-up is spent waiting for memory.
   struct Node {
     explicit Node(const Key& k) : key(k) {}
     Key key;

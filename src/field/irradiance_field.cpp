@@ -21,8 +21,9 @@ namespace {
 // room of 10 m, at -aa .15.
 constexpr int kUnlimited = 65536;
 
-// On curved surfaces, visibility is tested higher above two points: by this times their distance times the
-// angle (rad) between their normals. An arc rises above its chord by 1/8 of that; the rest is a margin.
+// On curved surfaces, the visibility between two points is tested above them, at a height of this constant
+// times their distance times the angle (rad) between their normals. An arc rises above its chord by 1/8 of
+// that product; the constant has a margin.
 constexpr double kBulge = .15;
 
 // Approximate memory overhead of an allocation and of a table entry (bytes).
@@ -31,7 +32,7 @@ constexpr size_t kBlock = 16, kNode = 96;
 constexpr size_t kNoBound = SIZE_MAX;
 
 // On small surfaces that share the cells of their plane, finer cells are tried unless the weights of the
-// sites that see the place add up to this: a room may be smaller than a cell, and sites may lie beside all of
+// sites that see the place add up to this: a room may be smaller than a cell, and a site may lie on none of
 // the surfaces. The value is 1 minus a margin for rounding.
 constexpr double kAllServed = 1 - 1e-9;
 
@@ -106,7 +107,7 @@ class IrradianceField::Cache {
   size_t bytes() const { return use_->bytes.load(std::memory_order_relaxed); }
 
  private:
-  // The two parties of a query: the memory that is searched, and the rays that fill gaps in it.
+  // A query searches the memory, and traces rays where it lacks a site.
   struct Asked {
     FieldMemory& memory;
     FieldRays& rays;

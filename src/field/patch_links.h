@@ -24,7 +24,7 @@ struct PatchPlace {
 // A place on a patch where rays start.
 struct PatchSite {
   GatherSite site;
-  V2f weight{0, 0};  // factor by which light that arrives here counts in the slopes of the patch's light
+  V2f weight{0, 0};  // factor on light that arrives here, in the slopes of the patch's light
 };
 
 // Light (W/sr/m2) or a coefficient that varies linearly over a patch.
@@ -32,7 +32,7 @@ struct LinearColor {
   V3f mean{0, 0, 0};
   V3f slopes[2] = {V3f(0), V3f(0)};  // change from one side of the patch to the opposite one
 
-  // Adds what arrives at a site of this weight (PatchSite).
+  // Adds light, or a coefficient, that arrives at a site of this weight (PatchSite).
   void add(const V3f& part, const V2f& weight) {
     mean += part;
     slopes[0] += weight.x * part;
@@ -51,8 +51,8 @@ struct LinearColor {
 
 // Most rays of a patch end at the first patch that they hit. If no patch can be used there, the ray is
 // followed; `bounces` is the number of its diffuse bounces after the first hit. A coefficient is the factor
-// by which light contributes to the mean radiance that arrives at the patch that owns the links. What is
-// added has arrived at the site with this `weight`.
+// by which light contributes to the mean radiance that arrives at the patch that owns the links. Functions
+// add light at the site with this `weight`.
 struct PatchLinks {
   struct Link {
     PatchPlace to;

@@ -31,22 +31,23 @@ struct IrradianceField {
   // in rooms on a ground of 0 to 5 km, by the error in thin gaps and the number of gathers. With 4, the light
   // between louvres is 3% too dark. With 2.5, furnished rooms need 3% more gathers.
   //
-  // The side of the widest cells is -aa times the same constant times the harmonic mean distance of their
-  // surroundings. Chosen by experiment. Insensitive.
+  // The constant has a second use: the side of the widest cells is -aa times kRoom times the harmonic mean
+  // distance of their surroundings. Chosen by experiment. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
   // Upper bound on the finest spacing, relative to the height of the gap that contains a place (the distance
   // to the first surface along its normal). Measured between louvres: with 1, 2.6% of the places are wrong by
-  // a factor of 1.5, instead of .7%; .125 gives the same errors, with 3% more gathers in a furnished room.
+  // a factor of 1.5, instead of .7%; .125 does not reduce the errors further, and needs 3% more gathers in a
+  // furnished room.
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
   // -aa divided by this is the allowed relative error of an interpolation. Chosen by experiment. In RADIANCE,
   // -aa bounds the error, and the mean error is smaller. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.4);
   // If the error of a level of cells is at most the allowed one, that level gives the whole answer. If the
   // error is this many times the allowed one or more, the level is not used. In between it is blended with
-  // the next level, to avoid visible edges. The allowed error grows by the same factor from level to level,
+  // the next level, to avoid visible edges. The allowed error grows by this factor from level to level,
   // because smaller cells cover a smaller part of a picture. Chosen by experiment. Insensitive.
   //
-  // It is also the margin of safety for extrapolations. The relative error of an extrapolation over a
+  // The constant is also the safety margin for extrapolations. The relative error of an extrapolation over a
   // distance d is predicted as this constant times the larger of two quantities: the relative change that the
   // gradients predict over d; and this constant times (d / R)^2, where R is the harmonic mean distance of the
   // surroundings. Insensitive.
@@ -86,24 +87,24 @@ struct CoarseSolution {
   // patch's side. Insensitive.
   static constexpr double kHalf = .5;
   // The side of a patch is at most this fraction of the viewing distance, down to the smallest patches of its
-  // surface. Measured for sensors between boards close above each other, by a lamp: with .5, they are .7% too
-  // dark, because wide patches do not follow the light in a gap; with .25 they are .1% too dark, in the same
-  // time (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  // surface. Measured for sensors between boards close above each other, lit by a lamp: with .5, they are .7%
+  // too dark, because wide patches do not follow the light in a gap; with .25 they are .1% too dark, in an
+  // equal time (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   static constexpr double kNear = .25;
   // Sufficient side of a patch, relative to the viewing distance. Measured with sensors in nine daylit rooms:
   // with .09, they are 1.1% too bright below a shaft, because its light varies within a meter, and take up to
   // twice the time, because places at different distances use patches of different levels
   // (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   RSPHERE_TUNED(CoarseSolution, double, kFarPatch, .02);
-  // kNear, kFarPatch and kUsualShare if patches are used at the first bounce. Measured: with the values of
-  // the others, spherical means in four daylit rooms take 1.4 times the time for the same errors
+  // kNear, kFarPatch and kUsualShare if patches are used at the first bounce. Measured: with the three values
+  // above, spherical means in four daylit rooms take 1.4 times the time for equal errors
   // (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   static constexpr double kNearAtFirst = .5, kFarPatchAtFirst = .09, kUsualShareAtFirst = .008;
   // Lower bound on the side of a patch, relative to its surface's extent. Without it, patches in a corner,
   // where everything is near, would be divided without end. Measured in three daylit rooms: with .05, the
-  // errors are the same and a room with a small window takes a tenth more time; with .07, its bias at -aa .05
-  // is .3 instead of .2% (tests/bench/rtrace/runs/2026-11-28-patches.txt). With .02, the time is three times
-  // as long.
+  // errors are equal and a room with a small window takes a tenth more time; with .07, its bias at -aa .05 is
+  // .3 instead of .2% (tests/bench/rtrace/runs/2026-11-28-patches.txt). With .02, the time is three times as
+  // long.
   RSPHERE_TUNED(CoarseSolution, double, kLeastPatch, .06);
   // Factor on kSpacing, kFarPatch and kLeastPatch in scenes without daylight openings. Measured in RADIANCE's
   // office and cabin (tests/bench/rtrace/runs/2026-11-25-lamps.txt). With 1, pictures take a third more time
@@ -111,13 +112,13 @@ struct CoarseSolution {
   // times as large. If patches are used at the first bounce, the least number of their rays grows with the
   // square of this factor, as their area does.
   RSPHERE_TUNED(CoarseSolution, double, kCoarserByLamps, 2);
-  // In the same scenes, patches that are only seen by other patches are enlarged by this number of levels,
-  // unless patches are used at the first bounce: 2 would then make the errors of spherical means three times
-  // as large (measured).
+  // In scenes without daylight openings, patches that are only seen by other patches are enlarged by this
+  // number of levels, unless patches are used at the first bounce: 2 would then make the errors of spherical
+  // means three times as large (measured).
   static constexpr int kCoarserLinksByLamps = 2;
-  // In the same scenes and with the same exception: factor on the rays of a patch. Measured in pictures of
-  // RADIANCE's cabin and office: with 1, they take 1.4 and 1.3 times the time for the same errors; with .25,
-  // sensors in a room with gaps have 1.4 times the error (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  // Factor on the rays of a patch, in the scenes of kCoarserLinksByLamps. Measured in pictures of RADIANCE's
+  // cabin and office: with 1, they take 1.4 and 1.3 times the time for the same errors; with .25, sensors in
+  // a room with gaps have 1.4 times the error (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   static constexpr double kFewerByLamps = .5;
   // The smallest patches of a surface are chosen as if its extent were at most this fraction of the scene's
   // longest side, because rooms on a wide ground are much smaller than the ground. Chosen by experiment.
@@ -156,16 +157,16 @@ struct CoarseSolution {
   // with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and takes a
   // sixth more time.
   //
-  // It also bounds the growth of the usual number by daylight. Below -aa .1, that is inversely proportional
-  // to -aa, because all places that see a patch share its noise. Measured: without this growth, the noise of
-  // sensors in a sunlit classroom at -aa .05 is .65%. Patches do not become smaller either beyond this
-  // growth.
+  // It also bounds the growth of the usual number by daylight. Below -aa .1, the usual number is inversely
+  // proportional to -aa, because all places that see a patch share its noise. Measured: without this growth,
+  // the noise of sensors in a sunlit classroom at -aa .05 is .65%. Where the growth ends, patches do not
+  // become smaller either.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Patches with at least this number of rays send them from 16 places, others from 4. Measured below north
-  // lights at -aa .05: with 4 places alone, the noise of sensors is .58 instead of .50% by an overcast sky
-  // and .65 instead of .47% by sun; with 16 places from 64 rays on, it is the same, and takes a tenth more
-  // time at -aa .1. Places must be random: at the same four places of all patches (those of Gauss-Legendre
-  // quadrature), sensors by sun are 1.2% too dark (tests/bench/rtrace/runs/2026-11-28-patches.txt).
+  // lights at -aa .05: with 4 places for all patches, the noise of sensors is .58 instead of .50% by an
+  // overcast sky and .65 instead of .47% by sun; with 16 places from 64 rays on, it is equal, and takes a
+  // tenth more time at -aa .1. Places must be random: with the four places of Gauss-Legendre quadrature in
+  // all patches, sensors by sun are 1.2% too dark (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   static constexpr double kManyRays = 256;
   // By daylight, the light of patches with fewer rays has no slopes, because they would be noise. Measured:
   // if all patches have at most 31 rays, slopes double the noise of spherical means in a room with a window.
