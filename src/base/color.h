@@ -229,7 +229,7 @@ class Color {
   Bands bands_;
 };
 
-// The color whose value in each channel and band is f of the values of a and b; the same for three colors.
+// The color whose value in each channel and band is f of the values of two, or three, colors.
 template <class F>
 Color combined(const Color& a, const Color& b, const F& f) {
   const V3d rgb(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));

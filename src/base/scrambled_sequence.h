@@ -8,9 +8,10 @@
 
 namespace rsphere {
 
-// Random numbers of which the first are a point of Sobol's sequence in the unit cube, scrambled by Owen's
-// method with hashing (Burley 2020, "Practical hash-based Owen scrambling"). With the same seed, the points
-// are spread evenly, most of all 2^k of them from a multiple of 2^k on; each alone is uniform over the cube.
+// A stream of random numbers. The first kDimensions are a point of Sobol's sequence in the unit cube,
+// scrambled by Owen's method with hashing (Burley 2020, "Practical hash-based Owen scrambling"). The points
+// of one seed are spread evenly, best in blocks of 2^k points that begin at a multiple of 2^k. Each point is
+// uniform over the cube.
 class ScrambledPoint {
  public:
   static constexpr size_t kDimensions = 5;

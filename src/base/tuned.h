@@ -16,10 +16,10 @@
 // from the environment variable RSPHERE_TUNING when the program starts: "Group.kName=2.1 Other.kName=7".
 // The program refuses names of other constants than those in its source files (unknownName()).
 //
-// Of the origins, "chosen by experiment" means that the value was the best of some that were tried on
-// furnished rooms, or on scenes like those of tests/bench/importance; the results of the others were not
-// kept. "Insensitive" means that changing the value by 30% had no effect beyond noise in
-// tests/bench/sensitivity (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again).
+// "Chosen by experiment" means that the value was the best of some that were tried on furnished rooms, or on
+// scenes like those of tests/bench/importance; the results of the others were not kept. "Insensitive" means
+// that changing the value by 30% had no effect beyond noise in tests/bench/sensitivity (runs/2026-11-24.txt,
+// or 2026-11-22.txt if it was not measured again).
 //
 // RSPHERE_DERIVED declares a constant with a derived value, by which tests/bench/mechanisms switches a
 // mechanism off, and which tests/bench/sensitivity does not vary.
@@ -62,7 +62,7 @@ inline double tuned(const char* name, double usual) {
   return usual;
 }
 
-// The first setting in RSPHERE_TUNING that is not one of a constant of the program; "" if there is none.
+// The first setting in RSPHERE_TUNING that names no constant of the program; "" if there is none.
 inline std::string unknownName() {
   const char* const all = std::getenv("RSPHERE_TUNING");
   std::istringstream settings(all ? all : "");

@@ -15,7 +15,8 @@ namespace rsphere {
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
-  // For a concave polygon: the same formula, to a square of equal area that lies partly outside the polygon.
+  // For a concave polygon: to a square of equal area that lies partly outside the polygon, by the formula of
+  // Parallelogram.
   struct Square {};
   // To the disk with radii u and v, preserving area.
   struct Disk {};
@@ -67,7 +68,7 @@ struct LightSource {
   // Of a virtual source: a beam from the image's center that contains every point the source lights. A
   // distant image has no center; its beam contains all directions.
   Beam beam{};
-  // A ray that is aimed at the source surely hits it, so that no intersection test is needed. True if the
+  // Every ray aimed at a sample of the source hits it, so that no intersection test is needed. True if the
   // source is real and flat and the unit square maps into it, or if it is a sphere that shines outward.
   bool hitsWhereAimed = false;
   LightShape shape{};

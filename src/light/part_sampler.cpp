@@ -67,7 +67,8 @@ V3d onDisk(const V3d& center, const PlaneLight& plane, double s, double t) {
 // circle. It is 1.3% larger than the disk; samples beside the disk are dropped.
 constexpr int kCornersOfDisk = 16;
 
-// The same map for parts of a near disk: s is the fraction of the area within a circle, t that of an angle.
+// The area-preserving map to the disk in polar coordinates, for parts of a near disk: s is the fraction of
+// the area within a circle, and t the fraction of the full angle.
 V3d onDiskByAngle(const V3d& center, const PlaneLight& plane, double s, double t) {
   const double radius = std::sqrt(s), angle = 2 * kPi * t;
   return center + radius * std::cos(angle) * plane.u + radius * std::sin(angle) * plane.v;
@@ -113,7 +114,7 @@ void eachTriangle(const V3d& center, const PlaneLight& plane, const SourcePart& 
       });
 }
 
-// The solid angle (sr) of these triangles.
+// The sum of the solid angles (sr) of the triangles of eachTriangle().
 double solidAngleOf(const LightSource& source, const PlaneLight& plane, const SourcePart& part,
                     const V3d& point) {
   double sum = 0;
@@ -289,7 +290,8 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
 }
 
-// The same, stratified: each part of the disk that the ball appears as gets one sample.
+// addRound() for a ball, stratified: the disk that the ball appears as is divided into parts, with one sample
+// in each.
 void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
   V3d x, y;
   frame(middle, x, y);
@@ -346,8 +348,8 @@ void PartSampler::addDistant(const DistantLight& cone, double distance) {
   samples_.push_back({direction, omega, length, cosine, plane.normal, index_});
 }
 
-// Does what split() does for a plane source that is spanned by u and v, without recursion. A part is
-// described by its middle and by how often u and v were halved.
+// A version of split() without recursion, for a plane source that is spanned by u and v. A part is described
+// by its middle and by how often u and v were halved.
 void PartSampler::addMiddles(const PlaneLight& plane, const V3d& towards) {
   struct Place {
     V3d middle;  // relative to the point

@@ -28,7 +28,7 @@ void addPenumbra(std::span<const V3d> from, std::span<const V3d> opening, std::v
 // nothing remains. Parts that lie outside by up to 1e-7 of their coordinates are kept.
 std::vector<V3d> clipped(std::vector<V3d> corners, std::span<const HalfSpace> bounds);
 
-// True if the box lies outside of the half space by more than the same margin.
+// True if the box lies outside of the half space by more than the margin of clipped().
 bool isOutside(const Box3d& box, const HalfSpace& bound);
 
 }  // namespace rsphere

@@ -44,7 +44,7 @@ struct Relay {
   double offset = 0;         // normal . p for the points p of the plane
   Ball ball;                 // around it
   std::vector<V3d> corners;  // of the polygon, or of a square around the ring
-  std::vector<V3d> hull;     // all points where rays can hit it lie in the hull of these: see hullOf()
+  std::vector<V3d> hull;     // their convex hull contains all points where rays can hit it: hullOf()
 };
 
 // One element of the path that the light of an image has taken: the source (unless it is distant) or a relay.
@@ -53,7 +53,7 @@ struct Relay {
 struct Passage {
   Ball ball;  // around it
   Beam beam;  // contains all points behind the last relay that its light reaches; apex: the ball's center
-  std::vector<V3d> hull;  // its convex hull contains the part of this element that the light leaves or passes
+  std::vector<V3d> hull;  // its convex hull contains the lit part of this element
   bool isFlat = false;    // the hull is a polygon
 };
 struct Way {
@@ -163,7 +163,7 @@ class Images {
     tree_ = RelayTree(bounds);
   }
 
-  // Adds the images of a real source, and the images of these, in sequences of up to `relays` relays.
+  // Adds the images of a real source, and images of images, in sequences of up to `relays` relays.
   void addImages(LightId real, int relays) {
     Way way;
     const LightSource& source = sources_[real];
@@ -188,11 +188,11 @@ class Images {
     uint32_t relay;
     std::vector<V3d> part;
   };
-  // An image that is still to be made. The last one is made first, with all images of itself, so that in a
-  // long sequence of relays only the way to the last image is in memory.
+  // An image that is still to be made. The last one in the list is made first, followed by all images of it,
+  // so that in a long sequence of relays only the path to the last image is in memory.
   struct Pending {
     LightId source;
-    std::shared_ptr<const Way> way;  // that the light of the source has come
+    std::shared_ptr<const Way> way;  // the path of the light up to the source
     Reached reached;
     int image;
     int relays;  // how many more there may be in the sequence, this one included
@@ -210,7 +210,7 @@ class Images {
         pending.push_back({source, passages, r, image, relays});
   }
 
-  // The relays that the light of a source may reach after it has come this way.
+  // The relays that the light of a source may reach after this path.
   std::vector<Reached> relaysReached(LightId source, const Way& way) const {
     std::vector<uint32_t> found;
     tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, found);
@@ -347,7 +347,7 @@ class Images {
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
   }
 
-  // Whether light of a source that has come this way can reach the relay at all.
+  // Whether light of a source that has taken this path can reach the relay at all.
   bool lights(LightId index, const Way& way, const Relay& relay) const {
     const LightSource& source = sources_[index];
     if (source.isVirtual()) {
@@ -389,7 +389,7 @@ class Images {
     return meetsBeams(source, way, ball);
   }
 
-  // Whether the light that has come this way can reach anything in the ball.
+  // Whether light that has taken this path can reach anything in the ball.
   static bool meetsBeams(const LightSource& source, const Way& way, const Ball& ball) {
     return std::ranges::all_of(way.passages, [&](const Passage& passage) {
       return passage.beam.meets(passage.ball.center, ball) &&

@@ -44,7 +44,7 @@ class LightSources {
   // Keeps a reference to the scene. Distant glow, and glow with a reach of zero or less, are not included.
   explicit LightSources(const Scene& scene);
 
-  // The same, with virtual sources from sequences of up to `relays` relays (-dr): see relays.h.
+  // Includes virtual sources, from sequences of up to `relays` relays (-dr): see relays.h.
   LightSources(const Scene& scene, int relays, const SurfaceFunctions& functions, const rad::Warn& warn);
 
   const ById<LightId, LightSource>& all() const { return sources_; }
@@ -65,8 +65,9 @@ class LightSources {
     if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
-  // The solid angle (sr) of a near plane source as seen from a point, whose undivided samples (jitter 1) are
-  // uniform by solid angle. 0 for other sources; those of other plane sources are uniform by area.
+  // The solid angle (sr) of a plane source as seen from a near point; the samples of the undivided source
+  // (jitter 1) are then uniform by solid angle. 0 if the source is not near, so that samples are uniform by
+  // area, or not plane.
   double nearSolidAngle(LightId source, const V3d& point) const;
 
  private:

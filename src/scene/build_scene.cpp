@@ -56,7 +56,7 @@ class BoundsOf {
   }
 
   const Scene& scene_;
-  std::vector<std::optional<Box3d>> groups_, meshes_;  // those that are known
+  std::vector<std::optional<Box3d>> groups_, meshes_;  // computed so far
 };
 
 // Reads the files that a scene names, and converts their surfaces and its own.

@@ -146,8 +146,7 @@ struct Illum {
   Alternate alternate;  // Kind::none, too, lets rays pass
 };
 // reach (world units): beyond this distance it is not sampled as a light source, and its light arrives only
-// by indirect rays that hit it by chance. 0: the same at any distance. Negative: it lights nothing and is
-// only seen directly.
+// by indirect rays that hit it by chance. 0: no limit. Negative: it lights nothing and is only seen directly.
 struct Glow {
   Color radiance;
   double reach = 0;

@@ -20,8 +20,8 @@ using Imath::V3d;
 // are ignored (world units). The value is RADIANCE's, on which scenes with coincident surfaces rely.
 inline constexpr double kSamePlace = 1e-6;
 
-// The same for the surfaces of a scene, octree or mesh with these bounds. It is smaller if the surfaces are
-// so small that kSamePlace would be visible, and never below the rounding errors of hits.
+// kSamePlace for a scene, octree or mesh with these bounds: smaller if the surfaces are so small that
+// kSamePlace would be visible, but never below the rounding errors of hits.
 double samePlaceIn(const Box3d& bounds);
 
 // The rounding errors of hits on surfaces with these bounds, with a margin for rays at small angles to them.

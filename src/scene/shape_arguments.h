@@ -3,7 +3,7 @@
 // arguments and makes the shape.
 //
 // Each reader throws rad::Error with the file and line of the primitive for arguments that RADIANCE rejects.
-// Where RADIANCE warns and ignores the surface, it does the same and returns nothing.
+// Where RADIANCE warns and ignores the surface, it warns, too, and returns nothing.
 #include <optional>
 #include <string>
 

@@ -103,7 +103,7 @@ class SurfaceList {
   // logarithmic in the number of runs of consecutive surfaces.
   PrimitiveId primitiveOf(SurfaceId id) const;
 
-  // By number.
+  // By index (Face).
   const std::vector<Finish>& finishes() const { return finishes_; }
   std::vector<Finish>& finishes() { return finishes_; }
 

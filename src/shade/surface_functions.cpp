@@ -692,8 +692,8 @@ void SurfaceFunctions::evaluateSpectrum(const SpectralData& data, calc::Point& p
 Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
   if (sampling_) return Color(bandsOf(spectrum, *sampling_));
   // In a run of three channels, RADIANCE first resamples spectra that are in ascending order of wavelength or
-  // have many values, at about their own resolution. If that is coarse, colors shift by up to a fifth. The
-  // same is done here, because scenes were made with these colors.
+  // have many values, at about their own resolution. If that is coarse, colors shift by up to a fifth. This
+  // is done here as well, because scenes were made with these colors.
   const size_t count = spectrum.values.size();
   if (spectrum.first > spectrum.last && count <= kMostBands) return threeChannels(spectrum);
   const double range = std::abs(spectrum.last - spectrum.first);
