@@ -48,8 +48,8 @@ class OpenFile {
   }
 
   // Throws Error if the file was modified after it was opened, because the data may then be a mixture of old
-  // and new contents. If the size is the same, a change is detected by the modification time, which some
-  // systems only record to 10 ms.
+  // and new contents. If the size has not changed, a modification is detected by the modification time, which
+  // some systems only record to 10 ms.
   void requireUnchanged(std::string_view name) const {
     struct stat now {};
     if (!S_ISREG(begin_.st_mode) || fstat(descriptor_, &now) != 0) return;

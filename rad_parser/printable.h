@@ -13,11 +13,11 @@ inline constexpr size_t kLongestName = 480;
 // result is longer than `longest` bytes, its end is replaced by "...".
 std::string printable(std::string_view text, size_t longest = 80);
 
-// The name of a missing file in the same form. A long name is shortened in the middle to 80 bytes, because
-// its end contains the name of the file itself.
+// printable() for the name of a missing file. A long name is shortened in the middle to 80 bytes, because its
+// end contains the name of the file itself.
 std::string printableName(std::string_view name);
 
-// A whole message in the same form. Words of more than 500 bytes, such as long paths, are shortened in the
+// printable() for a whole message. Words of more than 500 bytes, such as long paths, are shortened in the
 // middle, and messages of more than 4000 bytes are cut. All errors (error.h) and all messages of the programs
 // are converted by this function. Converting a message twice does not change it.
 std::string messageLine(std::string_view text);

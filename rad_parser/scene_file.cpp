@@ -202,7 +202,7 @@ class SceneReader {
   }
 
   void xform(const std::vector<std::string>& words, Place place, const Context& context) {
-    // The indices of files by path, because each element of an array reads the same files again.
+    // The indices of files by path, because each element of an array reads all of its files again.
     std::vector<std::pair<std::string, uint32_t>> seen;
     try {
       const int64_t copies = context.copies * copiesOfArrays(words, context.copies);

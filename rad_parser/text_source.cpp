@@ -88,7 +88,7 @@ void TextSource::skipLine() {
 std::string TextSource::line() {
   constexpr size_t kLongestLine = 1 << 20;
   std::string text;
-  bool sawReturn = false;  // "\r" ends the line; a following "\n" is part of the same line end
+  bool sawReturn = false;  // "\r" ends the line; a following "\n" is part of that line end
   for (;;) {
     if (next_ == end_) {
       const char* keep = next_;

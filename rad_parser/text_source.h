@@ -40,7 +40,7 @@ class TextSource {
   bool word(std::string_view& word);
 
   // These read the next word as a real number or an integer. They return false at the end of the text, or if
-  // the word is not such a number; lastWord() distinguishes the two.
+  // the word is not a number of this kind; lastWord() distinguishes the two.
   bool real(double& value);
   bool integer(int64_t& value);
 

@@ -199,7 +199,7 @@ class Expander {
       const std::string name = scope.definition != nullptr ? scope.definition->name : "expression";
       return fail(tree, scope, fmt::format("{}(): too few arguments", name));
     }
-    // A copy, because compiling the tree may reach and change the same argument.
+    // A copy, because compiling the tree may reach and change this argument.
     const Argument given = scope.arguments[index];
     if (given.node != kNone) return given.node;
     if (given.tree == nullptr) {
@@ -255,8 +255,8 @@ class Expander {
     return compile(d.body, *inner);
   }
 
-  // Whether a call is replaced by the body of d: if d is not already being expanded, or if an argument is a
-  // constant that differs from its values in all enclosing expansions of d.
+  // Whether a call is replaced by the body of d. It is, if d is not already being expanded, or if an argument
+  // is a constant that differs from the argument's values in all enclosing expansions of d.
   bool mayExpand(const Definition& d, const Scope& inner) {
     int active = 0;
     std::vector<bool> isNew;
@@ -429,7 +429,7 @@ class Expander {
     return graph.add(std::move(n));
   }
 
-  // Uses the same message for the same place, so that equal operations become the same node.
+  // Each place has one message, so that equal operations become one node.
   uint32_t realArgumentMessage(const std::string& place) {
     auto [it, isNew] = realArgumentMessages_.try_emplace(place, 0);
     if (isNew) it->second = message(place);

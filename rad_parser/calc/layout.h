@@ -8,10 +8,10 @@
 // code_writer.h.
 //
 // Blocks are nested: the root is always evaluated, and each branch of an if() or select() is a block within
-// the block of that operation. A node is placed in the innermost block that contains all its uses. If none of
-// these uses is certain, and the node costs more than a test, it becomes a cell: a separate block that is
-// evaluated once, when its value is first needed. An argument of a call is also a separate block, evaluated
-// by the called frame when it needs the parameter.
+// the block of that operation. A node is placed in the innermost block that contains all its uses. If no use
+// is certain, and the node costs more than a test, it becomes a cell: a separate block that is evaluated
+// once, when its value is first needed. An argument of a call is also a separate block, evaluated by the
+// called frame when it needs the parameter.
 namespace rad::calc {
 
 struct Block {

@@ -24,8 +24,8 @@
 // Source: RADIANCE file formats, "Function File Format", "Language Features".
 //
 // Constants. If the value of a variable defined with ':' is already known, the value replaces later uses of
-// the variable. The same applies to calls of a function defined with ':' if its arguments are constants. It
-// is an error if the value depends on the ray, because it uses inputs, arg() or the renderer's functions.
+// the variable. Calls of a function defined with ':' are replaced, too, if the arguments are constants. It is
+// an error if the value depends on the ray, because it uses inputs, arg() or the renderer's functions.
 namespace rad::calc {
 
 struct SourceText {

@@ -18,8 +18,8 @@ struct Point {
 // function without a finite result.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
-// The name of the first of these faults. "not finite" if there is none, because in RADIANCE the overflow of a
-// sum or product is not a fault.
+// The name of the first fault that is set. "not finite" if there is none, because in RADIANCE the overflow of
+// a sum or product is not a fault.
 const char* faultName(uint32_t faults);
 
 // A function supplied by the renderer. It is called with all arguments of the call, at least `arity`. It may
@@ -120,7 +120,7 @@ enum class Op : uint8_t {
 
 // Compiled expressions. Immutable, and shared by all threads. The program is straight-line code on registers.
 // A value that is needed in only one branch of an if() is computed in that branch. A value that may be needed
-// in several places is computed once, by the first of these.
+// in several places is computed once, at the first place that is reached.
 class Program {
  public:
   // The number of results of evaluate(): one for each expression.
@@ -129,7 +129,7 @@ class Program {
   // Bit i is set if evaluate() may read Point::inputs[i].
   uint64_t inputs() const { return inputs_; }
 
-  // Whether the values are the same at every point. If so, an empty Point is sufficient.
+  // Whether the values do not depend on the point. An empty Point is then sufficient.
   bool isConstant() const { return constant_; }
 
   // Evaluates all expressions at a point. Requires out.size() >= outputs(). In case of a fault, the value is

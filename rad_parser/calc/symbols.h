@@ -29,8 +29,8 @@ class SymbolTable {
   // The symbol of a qualified name, or -1.
   int find(const std::string& qualified) const;
 
-  // The symbol to which a name in a context refers. If it does not exist it is created, so that later
-  // references to the name find the same symbol.
+  // The symbol to which a name in a context refers. If it does not exist it is created, and later references
+  // to the name find it.
   int refer(const std::string& name, const std::string& context);
 
   // The renderer's function of this name, or null.

@@ -28,7 +28,7 @@ struct AngleBasis {
 struct BsdfMatrix {
   size_t incident = 0, scattered = 0;  // index in BsdfFile::bases
   std::vector<float> y;                // at [scattered cell * number of incident cells + incident cell]
-  std::vector<float> x, z;             // in the same order as y; both are empty for grey scattering
+  std::vector<float> x, z;             // in the order of y; both are empty for grey scattering
 };
 
 // A function on the unit cube of `rank` dimensions. It is constant on smaller cubes, obtained by repeated
@@ -65,7 +65,7 @@ struct BsdfFile {
   std::array<std::optional<BsdfMatrix>, kComponents> matrices;
   std::array<std::optional<BsdfTrees>, kComponents> trees;
 
-  // Reads such a file. name: for messages.
+  // Reads an XML file. name: for messages.
   // - Negative scattering is replaced by 0.
   // - The first of several layers is read, and the last of several blocks for the same component.
   // - Spectral bands are ignored, except the visible band and its chromaticity.

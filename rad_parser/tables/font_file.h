@@ -46,7 +46,7 @@ class FontFile {
 class TextLayout {
  public:
   // spacing: the primitive's argument, in widths of a full character. Positive values select proportional
-  // spacing, negative values narrow spacing; with 0 or no value, all characters have the same width. The font
+  // spacing, negative values narrow spacing; with 0 or no value, all characters have equal widths. The font
   // must outlive this object. Source: RADIANCE reference manual, "Brighttext", "Mixtext".
   TextLayout(const FontFile& font, std::span<const std::string> lines, std::optional<double> spacing);
 

@@ -68,7 +68,7 @@ std::vector<std::vector<std::string>> readArgumentFile(const std::string& path, 
 }
 
 // The count after words[at], which is -a. As in xform, only the integer at the beginning of the word counts:
-// "3.0", as a division in a script writes it, is 3. Empty if it is missing or not positive.
+// "3.0", the result of a division in a script, is 3. Empty if it is missing or not positive.
 std::optional<int64_t> countAfter(std::span<const std::string> words, size_t at) {
   if (at + 1 >= words.size()) return {};
   std::string_view word = words[at + 1];
