@@ -39,7 +39,7 @@ class BinFunction {
   // The value at the end of a ray, rounded to a whole number. Empty if it is not a number. Throws rad::Error
   // if the expression uses an undefined name.
   std::optional<double> at(const RayEnd& end, BinScratch& scratch) const;
-  // The same for a unit direction. REQUIRES: compiled for BinInputs::direction.
+  // The value for a unit direction. REQUIRES: compiled for BinInputs::direction.
   std::optional<double> at(const V3d& direction, BinScratch& scratch) const;
 
   bool isConstant() const { return program_->isConstant(); }
@@ -51,7 +51,7 @@ class BinFunction {
   std::shared_ptr<const rad::calc::Program> program_;
 };
 
-// Compiles expressions. Those with the same definitions share one library.
+// Compiles expressions. Expressions with equal definitions share one library.
 class BinFunctions {
  public:
   // option: the option that contains the expression, for messages. Throws rad::Error if a definition or the

@@ -18,7 +18,7 @@ class ContributionList {
   int components() const { return static_cast<int>(components_); }
   // The columns in the order of their first contribution.
   std::span<const uint32_t> columns() const { return columns_; }
-  // components() values for each of these columns.
+  // components() values for each element of columns().
   std::span<const double> values() const { return values_; }
 
   void clear();

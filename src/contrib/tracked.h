@@ -1,6 +1,6 @@
 #pragma once
-// Contributions of tracked modifiers to rays, summed by bins: the light that each surface with such a
-// modifier sends along each path, or the coefficient of that path.
+// Contributions of tracked modifiers to rays, summed by bins: the light that surfaces with these modifiers
+// send along each path, or the coefficient of the path.
 #include <atomic>
 #include <memory>
 #include <optional>

@@ -15,7 +15,7 @@ using Imath::V3d;
 // Finds directions (unit) in a list that are close to a given one. Keeps a reference to the list.
 class NearbyDirections {
  public:
-  // angle: the largest between directions that are close to each other, rad; above 0 and below pi.
+  // angle: directions are close if the angle between them is at most this, rad; above 0 and below pi.
   NearbyDirections(std::span<const V3d> directions, double angle);
 
   // Moves all directions close to `direction` from this object to `taken`.
@@ -33,9 +33,8 @@ class NearbyDirections {
   std::unordered_map<uint64_t, std::vector<size_t>> cells_;
 };
 
-// Divides directions into connected groups: directions within `angle` (rad) of each other are in the same
-// group. Returns the group of each direction; groups are numbered from 0 in the order of their first
-// direction.
+// Divides directions into connected groups: directions within `angle` (rad) of each other share a group.
+// Returns the group of each direction; groups are numbered from 0 in the order of their first direction.
 std::vector<size_t> connectedGroups(std::span<const V3d> directions, double angle);
 
 }  // namespace rsphere

@@ -29,8 +29,8 @@ using Kites = std::array<double, 3>;
 inline constexpr double kLeastCosine = 0.1;
 
 // Computes the kites of the listed triangles. wide[i] is 1 if the circle of triangle which[i] is too wide.
-// All three spans have the same length. A cell that is the sum of such kites has a relative error of 1e-14,
-// if the circles are not much wider than the cell.
+// All three spans have equal lengths. A cell that is the sum of such kites has a relative error of 1e-14, if
+// the circles are not much wider than the cell.
 void computeKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, std::span<Kites> kites,
                   std::span<std::uint8_t> wide);
 

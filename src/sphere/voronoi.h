@@ -78,7 +78,7 @@ class VoronoiWorkspace {
 std::span<const double> cellSolidAngles(const BaseTriangulation& base, std::span<const V3d> dynamicDirections,
                                         VoronoiWorkspace& workspace);
 
-// The same without base directions.
+// Solid angles [sr] of the cells of these directions, without base directions.
 std::span<const double> cellSolidAngles(std::span<const V3d> directions, VoronoiWorkspace& workspace);
 std::vector<double> cellSolidAngles(std::span<const V3d> directions);
 
