@@ -10,7 +10,7 @@
 
 namespace rsphere {
 
-// Evenly spread directions, the same at all points. Every strategy (-Sw) uses them.
+// Evenly spread directions, shared by all points. Every strategy (-Sw) uses them.
 struct BaseSet {
   std::vector<V3d> directions;                   // unit, world
   std::vector<double> solidAngles;               // solid angles that the directions represent, sr
@@ -19,7 +19,7 @@ struct BaseSet {
   std::shared_ptr<const DirectionBins> zones{};  // zones of -Sz or bins; null: not requested
 };
 
-// Makes -Sn directions, rotated by -Sr. With -Sw h all have the same solid angle, otherwise that of their
+// Makes -Sn directions, rotated by -Sr. With -Sw h their solid angles are equal, otherwise those of their
 // Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 

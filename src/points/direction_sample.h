@@ -5,9 +5,9 @@
 
 namespace rsphere {
 
-// Identifies a part of the sphere. Directions that lie in the same targets (targets.h) have the same number,
-// and a cell never extends from one part into another. kNoRegion: the direction is left out of the mean,
-// because other directions represent its solid angle.
+// Identifies a part of the sphere: the directions that lie in a certain combination of targets (targets.h). A
+// cell never extends from one part into another. kNoRegion: the direction is left out of the mean, because
+// other directions represent its solid angle.
 using RegionId = uint64_t;
 inline constexpr RegionId kNoRegion = UINT64_MAX;
 

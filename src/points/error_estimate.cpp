@@ -10,13 +10,13 @@
 namespace rsphere {
 namespace {
 
-// The part of a direction's radiance that glances do not estimate.
+// The part of a direction's radiance that the ray along it found, without its glance.
 Radiance followed(const DirectionSample& s) { return s.value - s.glanced; }
 
 // Each value minus the mean of the values around it.
 struct Differences {
   std::vector<Radiance> values;  // 0 where no value is compared
-  std::vector<double> around;    // number of values that each is compared with
+  std::vector<double> around;    // number of values with which each is compared
 };
 
 struct SumOfSome {
@@ -30,7 +30,7 @@ struct SumOfSome {
   SumOfSome without(const Radiance& value) const { return {sum - value, count - 1}; }
 };
 
-// values: of the samples. Each is compared with its neighbours in the same region. If there are none, as for
+// values: of the samples. Each is compared with its neighbours in its own region. If it has none there, like
 // a direction that sees the wall between two windows, it is compared with all other values of its region; if
 // it is alone in its region, with all neighbours except those in kNoRegion.
 Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
@@ -69,7 +69,7 @@ double ownPartOfSecond(double m) {
 // The neighbours of the first `count` points of evenly() in the unit square. Points at its opposite sides are
 // not neighbours.
 Neighbours latticeNeighbours(size_t count, const Imath::V2d& shift) {
-  constexpr size_t kSteps = 3;  // of the six around a point, those that are not opposite to each other
+  constexpr size_t kSteps = 3;  // a point has six neighbours, in three pairs of opposite steps
   std::vector<std::vector<uint32_t>> around(count);
   for (const EvenStep& s : shortestSteps(count, kSteps))
     for (size_t i = 0; i + s.ahead < count; ++i) {

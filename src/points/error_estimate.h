@@ -1,6 +1,6 @@
 #pragma once
-// Estimates the variance of a mean from the samples of one set of directions, without the light that glances
-// have found, whose variance is estimated with it. Parameters of all functions: sampling is
+// Estimates the variance of a mean from the samples of one set of directions. The light of glances is left
+// out, because diffuse_glances.h estimates its variance. Parameters of all functions: sampling is
 // RayOptions::sampling; the variance of each zone is added to `to`, which is null without zones.
 #include <Imath/ImathVec.h>
 
@@ -34,10 +34,10 @@ struct Variance {
   Variance operator*(double factor) const { return {channels * factor, brightness * factor}; }
 };
 
-// The error due to light vertices, which all directions of a point, and all points, have in common.
+// The error due to light vertices. All directions of a point, and all points, share these vertices.
 struct SharedError {
   std::vector<Irradiance> batches;  // sums of contributions by batch of light paths; empty: no light vertices
-  Variance chosen;                  // part of the batches' spread, due to choosing vertices at random
+  Variance chosen;                  // part of their spread that is due to choosing vertices at random
 
   void add(const SharedError& other, double share);
 };
@@ -69,36 +69,36 @@ struct Neighbours {
 
 // Variance of the sum of solid angle times radiance over evenly spread directions. Each contributes its solid
 // angle times the second difference of radiance: its difference to the mean of its neighbours, minus the mean
-// of the neighbours' differences. This contains the noise of paths and the error at edges, but not smooth
-// variation, which an even set integrates accurately. An even set also averages out part of the error at
-// edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0, the factor is 1 for
-// directions with few neighbours, because a single one may find much light there, such as a lamp mirrored in
-// a chrome column. Neighbours in the same region are compared if there are any: the edge of a region adds no
-// error, because cells end there. Directions in kNoRegion are left out.
+// of the neighbours' differences. Second differences contain the noise of paths and the error at edges, but
+// not smooth variation, which an even set integrates accurately. An even set also averages out part of the
+// error at edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0, the factor is 1
+// for directions with few neighbours, because a single one may find much light there, such as a lamp mirrored
+// in a chrome column. Only neighbours in one region are compared, if there are any: the edge of a region adds
+// no error, because cells end there. Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
-// The same for dynamic directions to one target, whose places in it are the first points of evenly(). Each is
-// compared with the nearest of them. An edge, such as that of a window in a mirror, then counts only where it
-// passes between neighbours. Slats that are finer than the distance of neighbours count as noise.
+// evenVariance() for dynamic directions to one target, whose places in it are the first points of evenly().
+// Each is compared with the nearest ones. An edge, such as that of a window in a mirror, then counts only
+// where it passes between neighbours. Slats that are finer than the distance of neighbours count as noise.
 Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
                          const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
-// The same for dynamic directions to several targets that show parts of one image of a source. The result is
-// the variance of independent directions, reduced for even spreading. There is no reduction where few
-// directions find most of the light, such as that of a lamp that is mirrored twice.
+// evenVariance() for dynamic directions to several targets that show parts of one image of a source. The
+// result is the variance of independent directions, reduced because they are evenly spread. It is not reduced
+// where few directions find most of the light, for example of a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 
-// The same for a target with a single dynamic direction. It is compared with the base directions in its
-// region; if there are none, its whole contribution is the error.
+// evenVariance() for a target with a single dynamic direction. The direction is compared with the base
+// directions in its region; if there are none, its whole contribution is the error.
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
                       const SpectralSampling* sampling, ZoneVariances* to = nullptr);
 
 // Variance due to occluders that no direction has hit, in regions other than 0. In each region, an occluder
 // is assumed that hides half of the solid angle that one more direction would represent. Otherwise the stated
-// error of an opening's light would be 0 whenever all of the few directions sent to it see the same sky. The
-// assumed occluder also hides light that was found by glances.
+// error of the light of an opening would be 0 whenever its few directions see an even sky. The assumed
+// occluder also hides light that was found by glances.
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
                         ZoneVariances* to = nullptr);
 

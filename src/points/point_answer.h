@@ -1,7 +1,7 @@
 #pragma once
-// What is answered at a point. A point is answered by weighted directions, each of which was traced; all that
-// the strategies (-Sw) share is in this folder: options, the base directions, samples (direction_sample.h),
-// their moments, and the error of a mean (error_estimate.h).
+// The answer at a point: integrals over weighted directions, each of which was traced. This folder has what
+// the strategies (-Sw) share: options, base directions, samples (direction_sample.h), their moments, and the
+// error of a mean (error_estimate.h).
 #include <cstddef>
 #include <vector>
 

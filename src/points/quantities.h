@@ -1,5 +1,5 @@
 #pragma once
-// The quantities that a point is answered with, by their -o letters. The command line, the writer of answers,
+// The quantities of an answer at a point, by their -o letters. The command line, the writer of answers,
 // -defaults and the manual take them from one table: a new quantity is a row of it.
 #include <cstdint>
 #include <span>

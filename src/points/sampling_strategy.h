@@ -44,8 +44,8 @@ class SetAtPoint {
 struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // light found by glances, minus what those along the samples have found; 0
-                                // without glances
+  Moments excess;               // light found by glances, minus the light of glances along samples
+                                // (DirectionSample::glanced); 0 without glances
   Irradiance clamped;           // light that -Sf removed from moments().total
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // error due to light vertices, not in `variance`

@@ -34,8 +34,8 @@ struct SphereOptions {
   bool verify = false;                          // -Sv
   GlareOptions glare;                           // -Su -Sub -Sut
 
-  // The default numbers of all that points share (light paths, rays of patches) suffice down to this accuracy
-  // (-Sa). Below, these numbers grow with its inverse square, up to limits.
+  // The default numbers of light paths and of rays of patches, which all points share, suffice down to this
+  // accuracy (-Sa). Below, these numbers grow with its inverse square, up to limits.
   static constexpr double kUsualAccuracy = .01;
 
   // The rays of each patch of the coarse solution (RayOptions::leastForPatches). Their number grows with the

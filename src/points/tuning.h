@@ -7,17 +7,17 @@ namespace rsphere::tuning {
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
   // Relative standard error of the mean due to the coarse solution (-aa above 0), assumed independent of the
-  // error of the directions. Its patches cause kPatches. Its rays cause as much again if gathers have
-  // kUsualRays rays; this part is inversely proportional to the square root of their number. Measured in a
-  // white room with a lamp, with and without a desk, by -Sn 16384 and patches as for 512 to 8192 rays: .08 to
-  // .04% (tests/bench/rtrace/runs/2026-11-28-patches.txt).
+  // error of the directions. kPatches is due to its patches. An error of equal size is due to its rays if
+  // gathers have kUsualRays rays; it is inversely proportional to the square root of their number. Measured
+  // in a white room with a lamp, with and without a desk, by -Sn 16384 and patches as for 512 to 8192 rays:
+  // .08 to .04% (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0005);
   static constexpr double kUsualRays = 1024;
   // Factor on the variance that is estimated from differences of evenly spread directions: derived. The right
   // value is .6 if all variance is due to straight edges, because evenly spread directions average out part
   // of it, and 1 if all is due to the noise of paths. With the middle of both, stated errors are at most 15%
-  // too large and 11% too small. Where directions to one target see something round that is as large as ten
-  // of their cells, they are up to 35% too large.
+  // too large and 11% too small. Where directions to one target see a round object as large as ten of their
+  // cells, stated errors are up to 35% too large.
   static constexpr double kEvenSet = .8;
   // Smallest number of neighbours for second differences: derived. ownPartOfSecond() does not hold for fewer.
   static constexpr double kFewestAround = 4;
@@ -31,22 +31,22 @@ struct ErrorEstimate {
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
-  // The same factor for n dynamic directions to several targets, parts of one image, is 1 / (1 + n^1/2 /
-  // kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by
+  // The factor like kEvenSet for n dynamic directions to several targets, parts of one image, is 1 / (1 +
+  // n^1/2 / kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by
   // experiment. n is the effective number of directions that cause the variance. With the number of all
   // directions, errors were understated beside a chrome ball, where 1 to 5 of 3400 directions find twice
   // mirrored lamps: the actual deviation was 1.6 times the stated one, and 2% of the answers were off by more
-  // than six stated errors. Now the ratio is .9, and no answer is. Insensitive.
+  // than six stated errors. With the effective number, the ratio is .9, and no answer is. Insensitive.
   RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
   // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction
   // that it covers is 1/2 / (n + 1) (Bayes' theorem, with Jeffreys' prior for a probability).
   static constexpr double kUnseen = .5;
   // The stated variance due to light vertices is at least this number of standard deviations of the spread of
-  // their batches: chosen by experiment. It is the spread minus the part due to choosing vertices at random;
-  // if the two are nearly equal, the difference may be 0 by chance. Where a tiny lamp lights a white room
-  // (-ab 0), 10% of the answers were off by more than six stated errors without the minimum, and none of 600
-  // with it.
+  // their batches: chosen by experiment. The stated variance is the spread minus the part due to choosing
+  // vertices at random; if the two are nearly equal, the difference may be 0 by chance. Where a tiny lamp
+  // lights a white room (-ab 0), 10% of the answers were off by more than six stated errors without the
+  // minimum, and none of 600 with it.
   static constexpr double kLeastShared = .5;
 };
 

@@ -21,8 +21,8 @@ PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placemen
 // mesh every triangle; other shapes use their own samplePoint(). clearance is 0 if there is no point.
 SurfacePoint samplePoint(const Scene& scene, const Surface& surface, Random& random);
 
-// Balls around the contents of instances and meshes, in the coordinates of these. Each is computed at its
-// first use. Keeps a reference to the scene.
+// Balls around the contents of instances and meshes, in the coordinates of the octree or mesh. Each is
+// computed at its first use. Keeps a reference to the scene.
 class BoundingBalls {
  public:
   explicit BoundingBalls(const Scene& scene) : scene_(scene) {}

@@ -292,7 +292,7 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
           image.mirror == kNone ? sampleStraight(paths, image, cell) : sampleMirrored(paths, image, cell);
       if (s) samples.push_back(std::move(*s));
     }
-  // The solid angle of the image is known. It is divided among the samples that hit the source.
+  // The solid angle of the image, which is known, is divided among the samples that hit the source.
   int aimed = 0;
   for (const Sample& s : samples) aimed += s.aimed;
   const double each = share.solidAngle * filled / std::max(1, aimed);

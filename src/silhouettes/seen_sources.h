@@ -1,8 +1,8 @@
 #pragma once
 // Images of light sources as seen from a point, directly or in a flat mirror. They are few, small and bright,
-// and their positions are known, so they are integrated separately instead of being hit by chance. A
-// direction either shows such an image, perhaps through panes, or it does not. This file samples the former.
-// All other directions of a set ignore light from these images.
+// and their positions are known, so they are integrated separately instead of being hit by chance. This file
+// samples directions that show an image, perhaps through panes. All other directions of a set ignore light
+// from these images.
 #include <optional>
 #include <vector>
 
@@ -37,10 +37,10 @@ class SeenSources {
   // Whether the source that a primary ray showed is one of a point's images.
   bool isOne(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether a primary ray directly showed the source of one of these images.
+  // Whether a primary ray showed the source of one of the images directly, not mirrored.
   bool isOneStraight(const ShownSource& shown, const std::vector<Image>& images) const;
 
-  // Whether a primary ray directly showed a source that is integrated separately at all points.
+  // Whether a primary ray showed, directly, a source that is integrated separately at all points.
   bool isApart(const ShownSource& shown) const {
     return shown.source != kNone && shown.mirror == kNone && apart_[shown.source];
   }
@@ -50,7 +50,7 @@ class SeenSources {
 
   // By surface: whether it is a source that is integrated separately where it is directly visible.
   const ById<SurfaceId, bool>& apart() const { return apart_; }
-  // The surfaces that may mirror such sources.
+  // The flat surfaces that may mirror these sources.
   const std::vector<SurfaceId>& mirrors() const { return mirrors_; }
 
   // One traced direction to an image.

@@ -1,7 +1,7 @@
 #pragma once
-// The directions in which an object may be seen from a point. Objects that matter more than their solid angle
-// says get directions of their own: light sources in view (seen_sources.h), and objects whose radiance varies
-// (special_objects.h).
+// The directions in which an object may be seen from a point. Some objects matter more than their solid angle
+// suggests and get separate directions: light sources in view (seen_sources.h), and objects whose radiance
+// varies (special_objects.h).
 #include <span>
 #include <vector>
 

@@ -24,7 +24,7 @@ struct Irregularity {
   static double lobe(const WgmdFunction::Lobe& m) {
     return lobe(std::min(m.share, 1.), m.roughnessAlong, m.roughnessAcross);
   }
-  // The roughness of a Gaussian in slope with the same curvature at its peak as a power of the cosine.
+  // The roughness of the Gaussian in slope whose peak has the curvature of a power of the cosine.
   static double roughnessOf(double power) { return std::sqrt(2 / (power + 1)); }
   double operator()(const Opaque& m) const { return lobe(m.specularity, m.roughness); }
   double operator()(const Trans& m) const {

@@ -20,7 +20,7 @@ namespace rsphere {
 // - For other materials the fraction of light that is reflected or transmitted specularly, divided by 1 + (a
 //   / kSharpRoughness)^2 for the roughness a (rms slope of facets), in analogy to the height of the peak.
 //   With two roughnesses (plastic2, metal2, trans2, WGMDfunc) the divisor is the geometric mean of both. A
-//   power n of ashik2 is converted to the roughness sqrt(2 / (n + 1)), with which the lobe has the same peak.
+//   power n of ashik2 is converted to the roughness sqrt(2 / (n + 1)), with which the lobe has an equal peak.
 // - If a function decides, the largest possible value: all light, and sharp (BRTDfunc, WGMDfunc). The width
 //   of directional scattering of plasfunc, its relatives and BRTDfunc is unknown; kSharpRoughness is assumed.
 // - 0 for diffuse materials, BSDF and light sources.

@@ -10,12 +10,13 @@ namespace rsphere::tuning {
 
 // Light sources that are integrated separately (seen_sources.cpp).
 struct SeenSources {
-  // The fraction of an even share of all rays in the cap on the rays to one image (kSmallestPart). With it,
-  // the error for a small half-hidden lamp falls from 4.2% with 256 base directions to .33% with 16384;
-  // without it, the error stays at 4.2%.
+  // Part of the cap on the rays to one image (see kSmallestPart), as a fraction of all rays divided by the
+  // number of images. With it, the error for a small half-hidden lamp falls from 4.2% with 256 base
+  // directions to .33% with 16384; without it, the error stays at 4.2%.
   //
-  // It is also the number of rays below which an image in a mirror is left to the base directions: chosen by
-  // experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight. Insensitive.
+  // The constant is also the number of rays below which an image in a mirror is left to the base directions:
+  // chosen by experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight.
+  // Insensitive.
   RSPHERE_TUNED(SeenSources, double, kSmallShare, .1);
   // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
   // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
@@ -27,14 +28,14 @@ struct SeenSources {
   // .2%.
   static constexpr size_t kShareTries = 1024;
   // Shadow rays along each side of a direction's cell on a directly visible source: measured at points where
-  // a partition hides part of the goal. With 2, the error is 3% instead of 1.8%, in the same time. With 8, no
+  // a partition hides part of the goal. With 2, the error is 3% instead of 1.8%, in an equal time. With 8, no
   // effect beyond noise.
   RSPHERE_TUNED(SeenSources, size_t, kShadowsAlong, 4);
   // The cap on the rays to a small image of a source, as many as the shadow rays of one cell.
   static inline const double kUsualRays = static_cast<double>(kShadowsAlong * kShadowsAlong);
-  // Solid angle (sr) in the image of a source for each of which a ray is allowed: derived. The cell of one of
-  // the usual 2048 base directions gets kUsualRays. The cap on the rays to one image is the largest of
-  // kUsualRays, one for each such part, and kSmallShare times an even share of all rays to images. Without
+  // One ray is allowed for each part of the image of a source with this solid angle (sr): derived. The cell
+  // of one of the usual 2048 base directions gets kUsualRays. The cap on the rays to one image is the largest
+  // of kUsualRays, one for each such part, and kSmallShare times an even share of all rays to images. Without
   // the parts, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5%.
   RSPHERE_DERIVED(SeenSources, double, kSmallestPart, 4 * kPi / 2048 / (kShadowsAlong * kShadowsAlong));
 };
@@ -44,7 +45,7 @@ struct Silhouettes {
   // Largest half angle (rad) of an object, as seen from the point, for which a hull is computed instead of a
   // cap: derived. Hulls are computed on a plane, which cannot represent a hemisphere (1.57). At this angle,
   // the projection stretches directions by 14 and 14^2, so that rounding costs two digits of sixteen. With
-  // 1.2, the error beside chrome is 30% larger, in the same time.
+  // 1.2, the error beside chrome is 30% larger, in an equal time.
   RSPHERE_DERIVED(Silhouettes, double, kWidestHull, 1.5);
   // Corners of the polygon around a circle: derived. The polygon's area is 1.3% larger than the circle's, so
   // that 1.3% of the directions to it miss the object. When searching for images on balls, light sources with
