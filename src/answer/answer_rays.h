@@ -14,7 +14,7 @@ namespace rsphere {
 // depends on index, the number of the record from 0, so that a repeated ray is a new sample.
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options);
 
-// One tracer for each thread of -n. The transport must exist as long as these.
+// One tracer for each thread of -n. The transport must exist as long as the tracers.
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values

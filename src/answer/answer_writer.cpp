@@ -202,11 +202,11 @@ void AnswerWriter::write(std::string& bytes, const GlareSource& source, const Gl
 
 namespace {
 
-// Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result has
-// the same bits as in an rtrace compiled with fused multiply-add. If the length is 1 to six digits (the
-// precision of text), the vector is corrected to first order (error below 4e-13); otherwise it is multiplied
-// by a reciprocal. The bits matter where rounding decides on which side of a plane a hit lies, and so, for
-// example, which square of a checkered floor a function file sees.
+// Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result
+// equals, bit by bit, that of an rtrace compiled with fused multiply-add. If the length is 1 to six digits
+// (the precision of text), the vector is corrected to first order (error below 4e-13); otherwise it is
+// multiplied by a reciprocal. The bits matter where rounding decides on which side of a plane a hit lies, and
+// so, for example, which square of a checkered floor a function file sees.
 double makeUnit(const V3d& vector, V3d& unit) {
   const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
   if (square == 0) return 0;

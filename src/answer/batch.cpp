@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Time in which a thread answers the records that it claims at once. It is long compared with a claim, which
-// takes about a microsecond, and so short that all threads end at nearly the same time.
+// takes about a microsecond, and so short that all threads end nearly together.
 constexpr auto kClaimTime = std::chrono::microseconds(200);
 constexpr size_t kLargestClaim = 256;
 // Number of claims per thread that may be ahead of the oldest unfinished one.

@@ -58,8 +58,8 @@ struct RunEnd {
 // - A signal ends the run (rad::Error with Status::signal and its name as text). Answers that are finished,
 //   up to the first unfinished record, are written at once, without waiting for unfinished records.
 // - Warns if there are fewer threads than requested with -n, if the input ends before -y scanlines, if the
-//   first line of text in ray mode does not contain whole rays, and (once, without -u+) if the same ray
-//   occurs three times in a row and its answers may be noisy.
+//   first line of text in ray mode does not contain whole rays, and (once, without -u+) if a ray occurs three
+//   times in a row and its answers may be noisy.
 // - Writes a progress report to `messages` about every -t seconds.
 // Throws the errors of reader, writer and answer, and rad::Error (Status::system) if no thread can be
 // started. `signals` may be null.

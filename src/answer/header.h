@@ -56,7 +56,7 @@ std::string resolutionLine(const AnswerOptions& options);
 // formats, "Information header"; rtrace(1).
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now, const RecordLayout& layout);
-// The same for the records of rays as in rtrace, and of points.
+// Writes the header of the records of rays, as rtrace does, or of points.
 void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<const std::string> sceneHeader,
                  std::time_t now);
 

@@ -5,7 +5,7 @@
 namespace rsphere {
 namespace {
 
-// kStart: initial part of a picture, whose time does not predict that of the rest, because its rays compute
+// kStart: initial part of a picture. Its time does not predict the time of the rest, because its rays compute
 // the coarse solution. kEnough: the part after it that must be finished before the remaining time is
 // reported.
 constexpr double kStart = .1, kEnough = .05;

@@ -16,7 +16,7 @@ namespace rsphere {
 // depend on the order of the answers.
 class RunSummary {
  public:
-  // What is answered at a point, at an eye (-Su), and for a sensor of -I.
+  // Add the answer at a point, at an eye (-Su), and for a sensor of -I.
   void add(uint64_t record, const PointAnswer& answer, const PreparedScene& prepared);
   void add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared);
   void addSensor(uint64_t record, const V3d& point, const PreparedScene& prepared);
@@ -35,7 +35,7 @@ class RunSummary {
   std::vector<std::string> warnings(const AnswerOptions& options, const PreparedScene& prepared) const;
 
  private:
-  // Records to warn about, with the worst of them; of equal ones the first.
+  // Records to warn about, and the worst of them; if several are equally bad, the first.
   struct Some {
     uint64_t records = 0, worst = 0;
     double most = -1;

@@ -45,7 +45,7 @@ class Words {
   std::span<const std::string> rest() const { return std::span(words_).subspan(at_); }
   std::span<const std::string> before() const { return std::span(words_).first(at_); }
 
-  // Expands @file or $VARIABLE at this position, and then the first word of the result in the same way.
+  // Expands @file or $VARIABLE at this position, and then the first word of the result if it is one, too.
   void expand() {
     while (!atEnd() && !word().empty() && (word()[0] == '@' || word()[0] == '$')) {
       const std::string name = word();
@@ -83,7 +83,7 @@ class Words {
 bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
 
 // Whether a switch has this state after its name. The letters that rtrace's switches take are not states of
-// -S and the like, where they would hide that there is no such option: -SN.
+// switches that begin with -S: they would turn the misspelt option -SN into a switch.
 bool hasState(const OptionEntry& entry, std::string_view state) {
   const bool letter = !state.empty() && std::isalpha(static_cast<unsigned char>(state[0])) != 0;
   return std::holds_alternative<SwitchValue>(entry.value) && switched(state, false) &&
@@ -153,7 +153,7 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   return *n;
 }
 
-// Whether this word cannot be a value of the option: it is blank, or it is an option where a number is
+// Whether this word cannot be a value of the option: the word is blank, or it is an option where a number is
 // expected.
 bool isMissing(const OptionEntry& entry, const std::string& word) {
   if (!isWord(word)) return true;

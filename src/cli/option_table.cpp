@@ -24,7 +24,8 @@ constexpr Range kFraction{0, 1};
 constexpr Range kCount{0, kLargestInt};
 
 // -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te, -tE,
-// -ti and -tI do the same for ray trees. An option of one kind discards earlier names of the other kind.
+// -ti and -tI include or exclude modifiers in ray trees. An option of one kind discards earlier names of the
+// other kind.
 void setModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                   std::string_view) {
   const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';

@@ -66,8 +66,8 @@ struct OptionEntry {
   std::string_view unit{};    // unit of the numbers, if any
   std::string_view remark{};  // one line for -defaults; for switches "on|off"
   std::string_view help{};    // used instead of the remark in -help, where rtrace's remark is unclear
-  // The only mode that it works in, and what to say besides where it is refused in the other mode. A switch
-  // that is off is accepted in both.
+  // The only mode in which the option works, and a remark for the message that refuses it in the other mode.
+  // A switch that is off is accepted in both.
   Mode mode = Mode::both;
   std::string_view elsewhere{};
   std::string_view paragraph{};  // for the manual

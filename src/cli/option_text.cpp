@@ -12,7 +12,7 @@
 namespace rsphere {
 namespace {
 
-// The names of the -o letters of rays and directions in -defaults: rtrace's, which has none for c. Those of
+// The names of the -o letters of rays and directions in -defaults; rtrace has none for c. For letters of
 // points: points/quantities.h.
 struct LetterName {
   char letter;
@@ -185,7 +185,7 @@ std::string unitAndRange(const OptionEntry& entry) {
   return text;
 }
 
-// The same, followed by the defaults.
+// unitAndRange(), followed by the defaults.
 std::string facts(const OptionEntry& entry) {
   std::string text = unitAndRange(entry);
   Options rays = modeDefaults(false), spheres = modeDefaults(true);

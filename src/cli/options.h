@@ -15,7 +15,7 @@ enum class Request : uint8_t { answers, version, defaults, help, features };
 struct Options : AnswerOptions {
   MessageOptions messages;
   bool irradianceAtHit = false,
-       irradianceAtPoint = false;  // -i and -I as given; if both are on, `irradiance` is that of -I
+       irradianceAtPoint = false;  // -i and -I as given; if both are on, `irradiance` follows -I
   Request request = Request::answers;
   std::vector<std::string> features;  // words after -features
   double photonRadius = 0;            // -am  accepted and printed by -defaults; photon maps are not read

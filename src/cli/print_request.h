@@ -9,7 +9,7 @@ namespace rsphere {
 // REQUIRES: options.request is not Request::answers.
 int printRequest(const Options& options, const Messages& messages);
 
-// The same for a companion.
+// Prints the text for a companion.
 int printRequest(const Companion& companion, Options& options, const Messages& messages);
 
 }  // namespace rsphere

@@ -10,8 +10,8 @@ namespace rsphere {
 // - Before defer(true), a signal ends the program at once. Afterwards, raised() becomes true and descriptor()
 //   becomes readable. The program then has 15 seconds to write its finished answers; that takes time only if
 //   the output is blocked. A second signal ends it at once.
-// - A second signal within 50 ms is part of the same request: timeout(1) sends its signal to the process and
-//   to its group, and systemd sends HUP after TERM.
+// - A second signal within 50 ms is part of one request: timeout(1) sends its signal to the process and to
+//   its group, and systemd sends HUP after TERM.
 // - Signals that were ignored remain ignored. SIGPIPE is ignored: a closed pipe is an error of write(2).
 // - The descriptors 0 to 2 are reserved for standard input, output and error, even if these are closed.
 // Only one object may exist in a process at a time, because signal handlers can only access process-wide

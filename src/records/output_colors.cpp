@@ -27,7 +27,7 @@ constexpr double kLeastRange = 50;  // nm, between the limits of -cw
 // The matrix that adapts X, Y, Z from equal-energy white to the given white.
 Matrix adaptation(double xWhite, double yWhite) {
   // The "sharp" transform and its inverse, with RADIANCE's digits. Their product differs from the unit matrix
-  // by 9e-5; rtrace's colors have the same error.
+  // by 9e-5, an error that rtrace's colors share.
   constexpr Matrix sharp = {{{1.2694, -.0988, -.1706}, {-.8364, 1.8006, .0357}, {.0297, -.0315, 1.0018}}};
   constexpr Matrix sharpInverse = {{{.8156, .0472, .1372}, {.3791, .5769, .0440}, {-.0123, .0167, .9955}}};
   constexpr double kSameWhite = 1e-4;

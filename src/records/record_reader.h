@@ -12,9 +12,9 @@
 
 namespace rsphere {
 
-// The meaning of line ends in text records. As in rtrace, they are blanks; or else they end records: each
-// line that is not blank is one record. In the latter case a line with too many or too few columns is
-// reported, instead of shifting all later numbers.
+// The meaning of line ends in text records. They are blanks, as in rtrace, or they end records: each line
+// that is not blank is then one record, and a line with too many or too few columns is reported instead of
+// shifting all later numbers.
 enum class LineEnds : uint8_t { areBlanks, endRecords };
 
 // Reads records of numbers from a file descriptor: text (numbers between white space, which may be quoted) or
@@ -59,8 +59,8 @@ class RecordReader {
   // The fraction of a regular file that has been returned, 0 to 1; 0 for other input.
   double shareRead() const;
 
-  // The first line of text that is not blank, once it was read to its end. The number of values in it shows
-  // whether records have the expected columns. Empty for binary input, and if line ends are the ends of
+  // The first line of text that is not blank, after it has been read to its end. The number of values in it
+  // shows whether records have the expected columns. Empty for binary input, and if line ends are the ends of
   // records.
   struct FirstLine {
     uint64_t line = 1;
