@@ -9,11 +9,11 @@
 
 namespace rsphere::v1 {
 
-// The modifiers, all with the same bins. Throws rad::Error if one is named twice, or if the bins are invalid.
+// The modifiers, which share these bins. Throws rad::Error if one is named twice, or if the bins are invalid.
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
 // Answers rays with contributions, as doubles: for each value of each column the mean over the samples and,
-// with more than one sample, its standard error. Threads of -n may call answer() at the same time.
+// with more than one sample, its standard error. Several threads of -n may call answer() at a time.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.

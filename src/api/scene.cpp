@@ -34,7 +34,7 @@ namespace rsphere::v1 {
 namespace {
 
 constexpr auto kAskToStop = std::chrono::milliseconds(100);
-// Claims of records for each thread. With this number, all threads end at nearly the same time.
+// Claims of records for each thread. With this number, all threads end nearly together.
 constexpr size_t kClaims = 64;
 constexpr size_t kLargestClaim = 256;
 
@@ -460,7 +460,7 @@ struct Scene::Implementation {
 };
 
 // An answerer for these options: the idle one or a new one. A new one uses the prepared scene of another
-// answerer if their preparations are the same.
+// answerer if it can (CommandOptions::sceneKey).
 std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
   {
     const std::lock_guard lock(mutex_);

@@ -333,7 +333,7 @@ void refuseSecondInit(py::class_<Scene>& scene) {
     init(self, *arguments, **keywords);
   };
   py::options options;
-  options.disable_function_signatures();  // the text has that of `init`
+  options.disable_function_signatures();  // the text has the signature of `init`
   const auto text = init.attr("__doc__").cast<std::string>();
   scene.attr("__init__") = py::cpp_function(once, py::name("init"), py::is_method(scene), text.c_str());
 }

@@ -9,7 +9,7 @@ namespace py = pybind11;
 namespace rsphere::python {
 namespace {
 
-// Sets a member if its name is that of the keyword.
+// Sets the member that the keyword names.
 struct Keyword {
   std::string_view name;
   py::handle value;

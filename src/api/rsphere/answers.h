@@ -9,8 +9,8 @@
 
 namespace RSPHERE_API_NAMESPACE {
 
-// A quantity for each record of a call, in the order of the records. Its numbers are the same, bit by bit, as
-// those written by the command with -fdd and the same options.
+// A quantity for each record of a call, in the order of the records. Its numbers equal, bit by bit, those
+// that the command writes with -fdd and equal options.
 struct Quantity {
   size_t columns = 0;  // numbers for each record; 0: the quantity was not requested (Options::outputs)
   std::vector<double> numbers;  // columns for the first record, then columns for the second, ...
@@ -25,8 +25,8 @@ struct Quantity {
 // -pS, -pM or -pA, and one for each band with -co and -cs.
 
 // Answers to rays, by the letters of Options::outputs. A ray that hits nothing has names "*", lengths 1e10,
-// normals 0, and its origin as the point. As in rtrace, a ray whose direction is 0 is not traced: its record
-// is that of the preceding ray, as if that ray had hit nothing.
+// normals 0, and its origin as the point. As in rtrace, a ray whose direction is 0 is not traced: it gets the
+// record that the preceding ray would have if it had hit nothing.
 struct RayAnswers {
   size_t size = 0;                    // the number of rays
   Quantity value;                     // v  radiance (W/sr/m2) along the ray; irradiance (W/m2) with -i and -I
@@ -58,8 +58,7 @@ struct PointAnswers {
   // The modifiers of goals, or of light sources with -Sp; empty: quantities are totals.
   std::vector<std::string> contributors;
   Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
-  Quantity meanStandardError;      // e  estimated standard error of mean; that of scalarIrradiance is pi
-                                   // times as large
+  Quantity meanStandardError;      // e estimated standard error of mean; times pi, of scalarIrradiance
   Quantity scalarIrradiance;       // E  F/4 (W/m2)
   Quantity cylindricalIrradiance;  // C  about the z axis: 1/pi times the integral of L sin(angle to z) (W/m2)
   Quantity semicylindricalIrradiance;  // S  of the curved surface of a half cylinder towards -So (W/m2)

@@ -34,7 +34,7 @@ struct Sensor {
 };
 
 // A scene read from files.
-// 1. It is immutable: any threads may call functions of the same scene at the same time.
+// 1. It is immutable: several threads may call functions of one scene at a time.
 // 2. An answer depends only on the scene, the ray or point, and the options, and not on the number of threads
 //    or on other records and calls. (With -u+ it also depends on the position in the call.)
 // 3. The preparations for the last options are kept, including interpolated light (-aa), so that repeated
@@ -70,12 +70,12 @@ class RSPHERE_API Scene {
   PointAnswers importance(std::span<const Point> points, const std::vector<std::string>& goals,
                           const Options& options = {}) const;
 
-  // The same for sensors or eyes as goals, which are not in the scene: they block and reflect nothing. Each
-  // receives light in proportion to the cosine, like rays with Options::irradianceAtOrigin, and is a goal of
-  // area A = 1: a lamp of 1 cd in all directions gives it 4 pi mean (lx). A sensor is a square of side 1e-5
-  // (units of the scene), so that light from a point, directly or by one mirror, has a relative error of the
-  // order of 1e-5 / distance. PointAnswers::contributors are sensor1, sensor2 and so on. Throws like
-  // importance(), and if a number is not finite or a direction is 0.
+  // importance() with sensors or eyes as goals, which are not in the scene: they block and reflect nothing.
+  // Each receives light in proportion to the cosine, like rays with Options::irradianceAtOrigin, and is a
+  // goal of area A = 1: a lamp of 1 cd in all directions gives it 4 pi mean (lx). A sensor is a square of
+  // side 1e-5 (units of the scene), so that light from a point, directly or by one mirror, has a relative
+  // error of the order of 1e-5 / distance. PointAnswers::contributors are sensor1, sensor2 and so on. Throws
+  // like importance(), and if a number is not finite or a direction is 0.
   PointAnswers importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
                                    const Options& options = {}) const;
 

@@ -7,7 +7,7 @@
 #define RSPHERE_VERSION_PATCH 0
 
 // All public names are in namespace rsphere for programs. Their symbols are in rsphere::v1. While the library
-// itself is compiled, v1 is not inline, because internal types in rsphere have the same names.
+// itself is compiled, v1 is not inline, because internal types in rsphere have these names, too.
 #ifdef RSPHERE_LIBRARY_SOURCE
 #define RSPHERE_API_NAMESPACE rsphere::v1
 #else
