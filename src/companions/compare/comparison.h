@@ -26,8 +26,9 @@ enum class Verdict {
 };
 
 // The comparison of one channel, or of one band in a spectral run. The bias is relative to the mean of the
-// original. The difference of a record is that between its means over the repeats. It is relative to the mean
-// of both programs for the record, or to kDarkest times the mean over all records if that is larger.
+// original. The difference of a record is the difference between the two programs' means over the repeats. It
+// is relative to the mean of both programs for the record, or to kDarkest times the mean over all records if
+// that is larger.
 struct ChannelComparison {
   std::string name;  // "red", or the middle wavelength of the band: "570 nm"
   double ourMean = 0, originalMean = 0;
@@ -70,8 +71,8 @@ double brightnessOf(const Answers& answers, size_t record);
 // it. independentRecords: whether the errors of different records are independent; if not (points that share
 // directions), the error of the mean is estimated from the means of whole repeats. Noise is assumed to be
 // normal. Probabilities are those of Student's t with 2 (repeats - 1) degrees of freedom for a record, with
-// Sidak's correction for the number of records.
-// REQUIRES: both have the same records, at least one, and the same number of repeats, at least two.
+// Sidak's correction for the number of records. REQUIRES: both answer the same records, at least one, in an
+// equal number of repeats, at least two.
 Comparison compare(const Answers& ours, const Answers& original, double tolerance, double shareBeyond,
                    bool independentRecords);
 

@@ -14,13 +14,13 @@ struct OriginalProgram {
 };
 
 // Finds the original: $RTRACE, a path or a name on PATH, if it is set; otherwise the first rtrace on PATH
-// whose -version is not that of rsphere. Throws rad::Error (Status::system) if there is none, with advice on
+// whose -version does not name rsphere. Throws rad::Error (Status::system) if there is none, with advice on
 // how to set it, or if it cannot be run.
 OriginalProgram findOriginal();
 
-// The options with which the original computes the same quantities: those in `used` that affect rays rather
-// than records, and in sphere mode those whose defaults differ from rtrace's. In a spectral run the original
-// writes bands (-co), otherwise red, green and blue.
+// The options with which the original computes the quantities of this run: those in `used` that affect rays
+// rather than records, and in sphere mode those whose defaults differ from rtrace's. In a spectral run the
+// original writes bands (-co), otherwise red, green and blue.
 std::vector<std::string> originalOptions(const Options& options, std::span<const UsedOption> used);
 
 class Original {

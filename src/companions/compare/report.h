@@ -17,8 +17,8 @@ std::string figuresText(const Comparison& comparison, double tolerance);
 
 // For points: the -Cn at which the original's answers would be as noisy as rsphere's (in green or the middle
 // band), and the CPU time for it. Both are predicted from the original's noise and time with `orientations`
-// planes. Because planes are evenly spread, the error of smooth irradiance falls in proportion to their
-// number, and that of random irradiance with its square root; the text gives both predictions. Time is
+// planes. Because planes are evenly spread, the error falls in proportion to their number where irradiance is
+// smooth, and with its square root where irradiance is random; the text gives both predictions. Time is
 // proportional to -Cn, except for loading. Seconds are totals over all repeats.
 std::string equalErrorText(const Comparison& comparison, int orientations, double ourSeconds,
                            double originalSeconds);

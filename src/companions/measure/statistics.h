@@ -28,10 +28,10 @@ class Spread {
   double mean_ = 0, squares_ = 0;
 };
 
-// The two-sided probability of Student's t with this number of degrees of freedom: that of a value above |t|
-// or below -|t|. 1 for degrees < 1. Error below 1e-14. Source: Abramowitz and Stegun, 26.7.3 and 26.7.4
-// (finite sums). Above 200 degrees, the normal distribution is used, which is wrong by a factor of at most
-// 1.4 for probabilities above 1e-6.
+// The two-sided probability of Student's t with this number of degrees of freedom: the probability of a value
+// above |t| or below -|t|. 1 for degrees < 1. Error below 1e-14. Source: Abramowitz and Stegun, 26.7.3 and
+// 26.7.4 (finite sums). Above 200 degrees, the normal distribution is used, which is wrong by a factor of at
+// most 1.4 for probabilities above 1e-6.
 double beyondT(double t, size_t degrees);
 
 // The probability of a difference at least as large if its expected value is 0: beyondT() of the difference

@@ -17,7 +17,7 @@ std::string pngUri(std::string_view bytes);
 // A word quoted for a POSIX shell: in single quotes unless all of its characters are ordinary.
 std::string shellWord(std::string_view word);
 
-// A command line of such words, separated by blanks.
+// A command line: words quoted by shellWord(), separated by blanks.
 std::string shellLine(std::span<const std::string> words);
 
 }  // namespace rsphere

@@ -33,8 +33,8 @@ struct AxisText {
 // A plot with logarithmic axes.
 class Plot {
  public:
-  // The axes contain all values of `extent`, with a margin. sameScale: both axes have the same range.
-  // REQUIRES: extent is not empty, and its values are above 0 and finite.
+  // The axes contain all values of `extent`, with a margin. sameScale: both axes have one range. REQUIRES:
+  // extent is not empty, and its values are above 0 and finite.
   Plot(std::string title, std::span<const PlotPoint> extent, AxisText x, AxisText y, bool sameScale = false);
 
   // The ends of the x axis.

@@ -24,7 +24,7 @@ class Reference {
 
   double mean(size_t point) const { return means_[point]; }
   double scale(size_t point) const { return scales_[point]; }
-  // Relative standard errors: rms over the points, and that of the mean over the points.
+  // Relative standard errors: the rms over the points, and the error of the mean over the points.
   double error() const { return error_; }
   double meanError() const { return meanError_; }
   size_t points() const { return means_.size(); }

@@ -35,7 +35,7 @@ std::string slowReference(const ReferenceProgress& progress);
 // remaining time.
 double costOf(const AnswerOptions& setting);
 
-// The time in seconds for the remaining settings, predicted from that for the first `done` settings.
+// The time in seconds for the remaining settings, predicted from the time for the first `done` settings.
 double secondsLeft(std::span<const double> costs, size_t done, double seconds);
 
 // Formats a duration as "40 s", "2.5 min", "12 min" or "3.5 h".
