@@ -4,7 +4,7 @@
 
 namespace rsphere {
 
-// -Sw h: only the base directions, all with the same solid angle.
+// -Sw h: only the base directions, with equal solid angles.
 class EqualWeights : public SamplingStrategy {
  public:
   // Keeps references to both.

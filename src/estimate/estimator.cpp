@@ -18,8 +18,8 @@
 namespace rsphere {
 namespace {
 
-// Adds `excess` to the integral over the samples: in proportion to what glances along them have found, or
-// evenly if that is nothing.
+// Adds `excess` to the integral over the samples: in proportion to the light of the glances along them, or
+// evenly if that is 0.
 void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   Irradiance glanced;
   double solidAngle = 0;
@@ -27,7 +27,7 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
     glanced += irradianceFrom(s.glanced, s.solidAngle);
     solidAngle += s.solidAngle;
   }
-  // The factor for one channel or band. all: integral of what glances have found; more: the excess.
+  // The factor for one channel or band. all: integral of the light of glances; more: the excess.
   const auto scaleOf = [](double all, double more) { return all > 0 ? more / all : 0; };
   const auto shiftOf = [&](double all, double more) {
     return all > 0 || !(solidAngle > 0) ? 0 : more / solidAngle;
@@ -40,7 +40,7 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
 }
 
 // Sets radiances to 0 that a negative excess has made negative, and reduces the others so that the integral
-// stays the same.
+// does not change.
 void keepPositive(std::vector<DirectionSample>& samples) {
   Color sum, positive;
   for (const DirectionSample& s : samples) {
@@ -171,7 +171,7 @@ std::unique_ptr<const DiffuseGlances> glancesFor(const PreparedScene& prepared, 
   return DiffuseGlances::make(prepared, options, base);
 }
 
-// Light vertices replace the caches of interpolated light: they are unbiased, and need less time for the same
+// Light vertices replace the caches of interpolated light: they are unbiased, and need less time for an equal
 // error (tests/bench/rtrace/runs/2026-11-25-lamps.txt). Without caches (-aa 0), bright spots are found only
 // behind openings.
 const Caches& cachesFor(const Transport& transport, bool haveVertices) {

@@ -46,11 +46,10 @@ class SphereEstimator {
     std::function<void()> checkStop;
     // The directions of the last point. With -Sa they are kept only if every direction is requested (-Sd),
     // because there may be a million. With -Sd, their radiances times solid angles sum to the integral of the
-    // answer: light that all glances have found, minus what those along the directions have found, is
-    // distributed among the radiances in proportion to the latter. No radiance is negative unless the answer
-    // is.
+    // answer: SampledSet::excess is distributed among the radiances in proportion to the light of the glances
+    // along the directions. No radiance is negative unless the answer is.
     std::vector<DirectionSample> samples;
-    std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
+    std::vector<TracedRay> rays;  // of the samples, in their order; kept with -Sd only
 
    private:
     friend class SphereEstimator;
@@ -59,21 +58,21 @@ class SphereEstimator {
 
   // The quantities at a point (world); the directions are left in workspace.samples. The answer depends only
   // on the point, the scene and the options. With -Sa, sets of directions with different rotations are
-  // averaged until the estimated standard error of the brightness is below that fraction of the mean
+  // averaged until the estimated standard error of the brightness is below the fraction -Sa of the mean
   // (two_halves.h). They end early if the next set might exceed SphereOptions::mostOfAllSets(), and at a dark
   // point after tuning::DiffuseGlances::kPools sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // Traces one set of directions. The integrals of one set are an estimate of those at the point, which
-  // estimate() averages over sets. Sets with different numbers below tuning::DiffuseGlances::kPools are
-  // independent of each other.
+  // Traces one set of directions. The integrals of one set estimate the integrals at the point; estimate()
+  // averages them over sets. Sets with different numbers below tuning::DiffuseGlances::kPools are independent
+  // of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return usual_.strategy->sample(set, workspace.tracer, workspace.voronoi_);
   }
   Moments momentsOf(const SampledSet& sampled, const SetAtPoint& set) const {
     return sampled.moments(base_, set.gaze());
   }
-  // The relative standard error common to all sets and points: that of the coarse solution (-aa above 0).
+  // The relative standard error of the coarse solution (-aa above 0), which all sets and points share.
   double sharedError() const;
 
   const SeenSources& sources() const { return sources_; }

@@ -132,7 +132,7 @@ void GlareEstimator::Source::add(const Look& look, const Gaze& gaze) {
 
 // Standard error of the luminance. If only one set sees the source, leaving out that set leaves no luminance,
 // so that the error follows from the spread of the directions of that set. The light of a single direction is
-// exact but for the indirect light of one path, whose error is about as large as that light.
+// exact except for the indirect light of one path, whose error is about as large as this indirect light.
 double GlareEstimator::Source::luminanceError() const {
   const auto sees = [](const SeenGlare& one) { return one.solidAngle > 0; };
   if (std::ranges::count_if(seen, sees) != 1)

@@ -7,13 +7,13 @@
 // - Everything else that is brighter than a threshold (GlareOptions): the sky and the sun, images in mirrors,
 //   sunlit and other bright surfaces. As in evalglare, bright directions that are near each other form one
 //   source, and peaks among them, such as the sun, form separate sources. The directions are those of the
-//   spherical mean, which keep to the outlines of openings, sunlit spots and other known objects; there are
-//   no pixels.
+//   spherical mean, whose cells end at the outlines of openings, sunlit spots and other known objects; there
+//   are no pixels.
 //
 // The indirect light of a direction comes from one path and is noisy. The threshold is therefore compared
-// with a smooth fit to the surrounding directions that see the same surface (local_fits.h). The fit leaves
-// out the direction's own path, so that the noise of that path does not decide whether the direction belongs
-// to a source. The integrals over a source contain the light that the paths found, not the fit.
+// with a smooth fit to the surrounding directions that see this surface (local_fits.h). The fit leaves out
+// the direction's own path, so that the noise of that path does not decide whether the direction belongs to a
+// source. The integrals over a source contain the light that the paths found, not the fit.
 //
 // Several independent sets of directions are averaged. Standard errors are jackknife estimates: each set is
 // left out in turn, and the sources are found again without it. The errors of single sources, however, are

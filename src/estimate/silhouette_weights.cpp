@@ -146,7 +146,7 @@ SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const 
 void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) const {
   plan.directions = set.turned(base_.directions);
   Random random(seedOf(set, Stream::dynamicDirections));
-  // Accumulating the expected numbers gives each target a whole number of directions with the right average.
+  // Accumulating the expected numbers of directions gives each target a whole number whose average is right.
   double due = random.uniform();
   for (const Target& target : plan.targets.all()) {
     due += target.expected;

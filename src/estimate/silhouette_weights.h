@@ -27,7 +27,7 @@ namespace rsphere {
 // - In scenes with lamps, and in rooms with openings by daylight, the light of plain diffuse surfaces is
 //   estimated by glances and by shadow rays to light vertices instead of these directions
 //   (diffuse_glances.h).
-// With -Sk 0 only the first of these applies.
+// With -Sk 0 only the first difference applies.
 class SilhouetteWeights : public SamplingStrategy {
  public:
   // Keeps references to all of them. glances: null if traced directions find all light.
@@ -47,7 +47,7 @@ class SilhouetteWeights : public SamplingStrategy {
     DiffuseGlances::Found glanced;  // 0 without glances
   };
   View viewFrom(const SetAtPoint& set, PathTracer& tracer) const;
-  // The mean brightness around a point. The radiances of its rays are used for nothing else.
+  // The mean brightness around a point. No estimate uses its rays, so that estimates stay unbiased.
   double lookAround(const SetAtPoint& set, PathTracer& tracer, const Images& images) const;
 
   // Stage 2: the directions that are not sent to images of sources.
@@ -70,10 +70,11 @@ class SilhouetteWeights : public SamplingStrategy {
   // of a light source are in kNoRegion, with solid angle and radiance 0.
   SampledSet traced(const SetAtPoint& set, const View& view, const Plan& plan, const PathsFrom& paths) const;
 
-  // Stage 4: light found by glances, minus what those along the directions have found (-Sd).
+  // Stage 4: SampledSet::excess.
   Moments glancedBeside(const View& view, std::span<const DirectionSample> others) const;
 
-  // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
+  // Stage 5: the variance due to directions of both kinds, without the variance of glances. to: see
+  // error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const Plan::Run> runs,
                       std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
 

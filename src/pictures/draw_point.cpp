@@ -89,7 +89,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
 struct Pixels {
   SeenSurfaces seen;
   PixelLight indirect, gloss, direct;
-  // What the ray through the middle of a pixel finds.
+  // The light that the ray through the middle of a pixel finds.
   struct Middle {
     V3d rest{0, 0, 0}, pattern{1, 1, 1};
     Imath::V3f direct{0, 0, 0};  // before smoothing
@@ -117,7 +117,7 @@ struct Pixels {
     middles[pixel] = {sample.rest,        sample.pattern,      direct.light[pixel],
                       sample.sharesGloss, sample.sharesDirect, true};
   }
-  // The light of a sample with all components. Those that the sample lacks come from the given pixel.
+  // The light of a sample with all components. Components that the sample lacks come from the given pixel.
   V3d complete(const PixelSample& sample, size_t pixel) const {
     V3d value = sample.rest + sample.direct;
     if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
@@ -236,7 +236,7 @@ std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, Pixe
   return sample;
 }
 
-// The same for the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
+// look() through the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
 std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;

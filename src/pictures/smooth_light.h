@@ -33,11 +33,11 @@ struct Smoothing {
   float near = 0;        // tuning::Pictures::kNear
 };
 
-// Whether two pixels show the same material on the same flat or slightly curved surface.
+// Whether two pixels show one material on a common flat or slightly curved surface.
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing);
 
-// Averages the light over nearby pixels that may share it. Pixels without sampled light get that of their
-// neighbors; if these have none either, `known` stays 0. Averages do not cross edges of surfaces. Three
+// Averages the light over nearby pixels that may share it. Pixels without sampled light get the light of
+// their neighbors; if these have none either, `known` stays 0. Averages do not cross edges of surfaces. Three
 // passes, with steps of 1, 2 and 4 pixels, act like a Gaussian with a standard deviation of 4.6 pixels: they
 // blur finer variation, and reduce noise to a sixteenth. Of the remaining differences, small ones are mostly
 // noise and large ones shadows; careful passes blur only small ones. Source: Dammertz, Sewtz, Hanika, Lensch,

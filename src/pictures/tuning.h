@@ -16,18 +16,18 @@ struct Pictures {
   // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of
   // 1.4 pixels it would be 38%; with separate samples it is .1%.
   //
-  // It is also the number of samples of such a source per covered pixel, and the minimum per source:
-  // measured. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture, with 16
-  // they lose 1 to 3.5%. Insensitive.
+  // The constant is also the number of samples of such a source per covered pixel, and the minimum per
+  // source: measured. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture,
+  // with 16 they lose 1 to 3.5%. Insensitive.
   static constexpr double kSmallest = 16;
   // Offsets from the middle of a pixel (in pixels) of the rays that look for the background behind a small
   // source: chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
-  // Side of the squares of pixels (in pixels) in each of which one pixel gathers indirect light, with 32
-  // rays: derived. It is the least with which pixels share light.
+  // One pixel in each square of this side (in pixels) gathers indirect light, with 32 rays: derived. It is
+  // the smallest side with which pixels share light.
   static constexpr int kSharing = 2;
-  // The same where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:
+  // kSharing where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:
   // chosen by experiment in the open-plan office. With 2, the error changes by -21%, with 4 by +26% (picture
   // from point with 1% of the pixels).
   RSPHERE_TUNED(Pictures, int, kSharingByLamps, 3);
@@ -48,7 +48,7 @@ struct Pictures {
   static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
   // Least cosine between the normals of pixels that share gloss: derived. It corresponds to 2 degrees, less
-  // than the width of such a lobe.
+  // than the width of a shared lobe.
   static constexpr float kSameGlossNormal = .9994f;
   // Visible difference between neighboring pixels, on an sRGB scale of 0 to 1. Where it is exceeded, four
   // rays near the corners of the pixel are added; if these differ as much, four near the middles of its
