@@ -56,9 +56,9 @@ size_t pathsFor(const SphereOptions& options, bool daylit) {
 
 }  // namespace
 
-// Chooses the light vertices that are joined to a point. The probability of a vertex is proportional to an
-// estimate of its unoccluded contribution, and at most 1. It is a function of position alone, so that
-// multiple importance sampling can evaluate it where a glance hits.
+// Chooses the light vertices that are connected to a point by joins. The probability of a vertex is
+// proportional to an estimate of its unoccluded contribution, and at most 1. It is a function of position
+// alone, so that multiple importance sampling can evaluate it where a glance hits.
 class DiffuseGlances::Joins {
  public:
   Joins(const VertexLight& light, const V3d& point, double expected, double glances)
@@ -93,7 +93,7 @@ class DiffuseGlances::Joins {
     return {direction, density_ * cosine / square, factor_ * cosine / (square + radius2_)};
   }
 
-  // Calls each(vertex, share, direction, distance) for the vertices that are joined.
+  // Calls each(vertex, share, direction, distance) for the chosen vertices; share: the vertex's probability.
   template <class Each>
   void draw(Random& random, const Each& each) const {
     double due = random.uniform();
@@ -109,7 +109,7 @@ class DiffuseGlances::Joins {
     }
   }
 
-  // The contribution of a joined vertex, or 0 if it faces away from the point or is hidden.
+  // The contribution of a chosen vertex, or 0 if it faces away from the point or is hidden.
   Irradiance partOf(const VisibleVertex& v, double share, const V3d& direction, double distance) const {
     const double cosine = -direction.dot(v.vertex.normal()), square = distance * distance;
     if (!(cosine > 0)) return {};
@@ -249,8 +249,8 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
     if (!neighbours_) return;
     recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
     all.push_back({part, v.vertex.batch, 1 - share});
-    // Successive vertices are close together, so the difference of their contributions estimates the variance
-    // due to choosing vertices at random.
+    // Successive vertices are close together, so that the difference of their contributions estimates the
+    // variance due to choosing vertices at random.
     if (last) {
       const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
       found.variance += variance;
@@ -261,9 +261,9 @@ void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records
   if (neighbours_) found.shared = evened(joins, all);
 }
 
-// The correction of the shared error of all joins if each batch had the expected number of them. The number
-// is random, but the same for all batches together. As all joins contribute nearly the same, it would hide
-// how the batches differ.
+// Corrects the shared error of all joins to the error with the expected number of joins in each batch. The
+// number in a batch is random, although the total number is not. Because joins contribute nearly equal
+// amounts, the random numbers would hide how the batches differ.
 SharedError DiffuseGlances::evened(const Joins& joins, std::span<const Joined> all) const {
   if (all.empty()) return {};
   const SpectralSampling* const sampling = prepared_.options().sampling;
@@ -301,7 +301,7 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
 
 namespace {
 
-// Black smooth metal is the same as a mirror without virtual sources; both bring light of portals.
+// Black smooth metal acts like a mirror without virtual sources: it shows the light of portals.
 bool isMirror(const PlainSurfaces& surfaces, const Sight& sight) {
   return sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror;
 }

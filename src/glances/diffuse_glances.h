@@ -1,8 +1,10 @@
 #pragma once
 // The light of the plain diffuse surfaces in view of a point, by bidirectional sampling
 // (light_paths/vertex_light.h):
-// - glances: evenly spread directions of which only the nearest hit is found, many for each traced direction,
-// - joins: shadow rays from the point to light vertices, sent more often to those that would contribute more.
+// - glances: evenly spread rays that end at the nearest hit, without further bounces; many for each traced
+//   direction,
+// - joins: connections, which are shadow rays from the point to light vertices, sent more often to vertices
+//   that would contribute more.
 // Traced directions find the remaining light: of sources in view, sharp reflections, and sampled rough
 // highlights.
 #include <memory>
@@ -24,8 +26,8 @@ class DiffuseGlances {
   // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
-  // The same for rooms that daylight enters through openings, for points that suitDaylight(). surfaces: from
-  // daylitSurfaces().
+  // make() for rooms that daylight enters through openings, for points for which suitsDaylight() is true.
+  // surfaces: from daylitSurfaces().
   static std::unique_ptr<const DiffuseGlances> makeDaylit(const SphereTracing& tracing,
                                                           const PlainSurfaces& surfaces,
                                                           const SphereOptions& options, const BaseSet& base);
@@ -49,7 +51,7 @@ class DiffuseGlances {
   // tracer: for the light beyond portals.
   Found at(const SetAtPoint& set, PathTracer& tracer) const;
 
-  // An estimate of the same light along one direction (W/sr/m2), by one glance. number: of the direction.
+  // An estimate of the light of at() along one direction (W/sr/m2), by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
 
   // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
@@ -76,7 +78,7 @@ class DiffuseGlances {
   struct Joined {
     Irradiance part;
     uint8_t batch;
-    double notChosen;  // the share of such vertices that are not joined
+    double notChosen;  // 1 minus the probability of the vertex
   };
   SharedError evened(const Joins& joins, std::span<const Joined> all) const;
   void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
@@ -96,8 +98,8 @@ class DiffuseGlances {
 std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing);
 
 // Whether nearly all paths of up to `bounces` diffuse reflections from a point in a daylit room lead only to
-// plain surfaces and portals. Otherwise, as outdoors, most of the light would be left to a few paths from the
-// eye. Depends only on the point and the scene.
+// plain surfaces and portals. Where they do not, for example outdoors, most of the light would be left to the
+// few paths from the eye. Depends only on the point and the scene.
 bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces);
 
 }  // namespace rsphere

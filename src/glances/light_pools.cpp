@@ -8,11 +8,11 @@
 namespace rsphere {
 namespace {
 
-// A place gets separate vertices if the sources visible from it have less than this share of all power. If
+// A place gets separate vertices if the sources visible from it have less than this fraction of all power. If
 // they have more, enough of the paths from all sources reach the place.
 constexpr double kFewPower = .25;
-// A region of places shares its vertices. The region around a place is as large as possible while the sources
-// visible from the place have at least this share of the power of all sources visible from the region.
+// Places in one region share vertices. The region is the largest one around a place in which the sources
+// visible from the place still make up this fraction of the power of all sources visible from the region.
 constexpr double kShared = .75;
 
 }  // namespace

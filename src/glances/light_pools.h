@@ -1,8 +1,8 @@
 #pragma once
-// The light vertices (light_paths/light_vertices.h) that points use. In a building, only a few of the sources
-// light any given room, and few of the paths from all sources reach it. Each room therefore has separate
-// vertices. Most of their paths start at the sources visible in the room; the others start at all remaining
-// sources, whose light may arrive through other rooms.
+// The light vertices (light_paths/light_vertices.h) that points use, in pools: independent sets of light
+// paths. In a building, only a few of the sources light a given room, and few of the paths from all sources
+// reach it. Each room therefore has separate pools. Most of their paths start at the sources visible in the
+// room; the others start at all remaining sources, whose light may arrive through other rooms.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -27,8 +27,8 @@ class LightPools {
   LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools, size_t paths,
              uint64_t seed, Tracers tracers = {});
 
-  // The vertices for a point (world), from the pool that the set of directions with this number uses. They
-  // are computed at the first request and do not depend on other requests.
+  // The vertices for a point (world), from the pool that belongs to the set of directions with this number.
+  // They are computed at the first request and do not depend on other requests.
   std::shared_ptr<const VertexLight> at(const V3d& point, uint64_t set) const;
   // Vertices common to all places: their paths start at all sources, in proportion to power.
   std::shared_ptr<const VertexLight> ofAll() const { return pool({}, 0); }

@@ -7,13 +7,13 @@
 
 namespace rsphere::tuning {
 
-// Glances, and joins with light vertices (diffuse_glances.h). Errors are those around the goal.
+// Glances, and joins with light vertices (diffuse_glances.h). Errors were measured around a goal.
 struct DiffuseGlances {
   // Glances for each base direction. They take most of the time of a point. The error is inversely
   // proportional to the square root of their number.
   RSPHERE_TUNED(DiffuseGlances, size_t, kPerDirection, 12);
-  // Paths from a point that decide whether glances suit it by daylight, and the largest fraction of them that
-  // may leave the room past all portals or meet surfaces that are not known.
+  // Number of paths from a point by which suitsDaylight() decides, and the largest fraction of them that may
+  // leave the room past all portals or meet surfaces that are not plain.
   static constexpr size_t kWalks = 256;
   RSPHERE_TUNED(DiffuseGlances, double, kMostPast, .02);
   // Limit on the memory for the glances at one point (about 100 MB), if there are fewer base directions, and
@@ -32,12 +32,12 @@ struct DiffuseGlances {
   // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
   // of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
-  // The same by daylight through openings, where a path costs twice as much: half of it, so that the paths of
-  // both take the same time. With a quarter, the error is 10 to 40% larger, and the program starts in .14
-  // instead of .2 s.
+  // kPathsPerDirection by daylight through openings, where a path costs twice as much: half of it, so that
+  // light paths by lamps and by daylight take equal times. With a quarter, the error is 10 to 40% larger, and
+  // the program starts in .14 instead of .2 s.
   static inline const double kDaylitPaths = kPathsPerDirection / 2;
-  // Assumed mean radiance of light that glances miss, as a fraction of that which they find. It is the
-  // reference for the variance of targets. With .3 or 1, single answers are off by 6% where brushed steel
+  // Assumed mean radiance of the light that glances miss, as a fraction of the radiance that they find. It is
+  // the reference for the variance of targets. With .3 or 1, single answers are off by 6% where brushed steel
   // reflects the goal. With .03, the time is 1.15 times as long, without an effect on the error beyond noise.
   RSPHERE_TUNED(DiffuseGlances, double, kLeft, .1);
 };

@@ -38,7 +38,7 @@ struct Sensor {
 // 2. An answer depends only on the scene, the ray or point, and the options, and not on the number of threads
 //    or on other records and calls. (With -u+ it also depends on the position in the call.)
 // 3. The preparations for the last options are kept, including interpolated light (-aa), so that repeated
-//    calls with the same options are fast. Threads, outputs and colors may differ.
+//    calls with equal options are fast. Threads, outputs and colors may differ.
 // 4. Files that answers need are read by the constructor, or when options name them. They are searched for
 //    along RAYPATH.
 class RSPHERE_API Scene {
