@@ -8,9 +8,9 @@ namespace rsphere {
 
 // A place where a light path (light_vertices.h) hits a diffuse surface.
 struct LightVertex {
-  enum Way : uint8_t {  // how the light has arrived
+  enum Way : uint8_t {  // the last step of the light to the vertex
     direct,             // straight from a source
-    unweighed,          // directly from a source, but the density of shadow rays to the source is unknown
+    unweighed,          // directly from a source for which the density of shadow rays is unknown
     diffuse,            // directly from a diffuse reflection
     highlight,          // directly from a source's highlight on a rough surface
     sharp               // from any other highlight, or from a sharp reflection
@@ -22,14 +22,14 @@ struct LightVertex {
   double place[3];  // world; in double precision, for scenes far from the origin
   float facing[3];  // world; the normal (unit) on the side that the light came from
   float power = 0;  // brightness of the diffusely reflected light, W
-  // Number of diffuse surfaces on the path from the source, including this one. A highlight that lights the
-  // first of them adds 1.
+  // Number of diffuse surfaces on the path from the source, including this one. 1 more if a highlight lights
+  // the first surface.
   uint8_t bounces = 0;
   Way way = direct;
   uint8_t batch = 0;
 
   // Whether the light of the vertex is added with the unbounded kernel 1 / d^2 (vertex_light.h), because rays
-  // towards near surfaces do not sample it.
+  // towards near surfaces do not sample this light.
   bool isUnbounded() const { return way == highlight || way == sharp; }
   V3d point() const { return V3d(place[0], place[1], place[2]); }
   V3d normal() const { return V3d(facing[0], facing[1], facing[2]); }

@@ -21,8 +21,8 @@ uint32_t spread(uint32_t x) {
   return (x | x << 2) & 0x09249249;
 }
 
-// The order of points along a Morton curve through a grid of 1024 cells a side. Points that are near each
-// other are mostly near each other in this order too.
+// The order of points along a Morton curve through a grid of 1024 cells a side. Points that are close
+// together are usually close in this order, too.
 template <class PointOf>
 std::vector<uint32_t> orderByPlace(size_t count, const PointOf& pointOf) {
   constexpr double kCells = 1024;
@@ -124,8 +124,8 @@ class LightVertices::Path {
   bool reflect(const PlainPlace& at);
   bool reflectSpecularly(const Scattering& s, const Interaction& view, double scale);
 
-  // The batch of the path, and the numbers that place its start. Each batch has a sequence of its own, so
-  // that the differences between batches show the error.
+  // The batch of the path, and the numbers that place its start. Each batch has a separate sequence, so that
+  // the differences between batches show the error.
   struct Start {
     Start(size_t number, uint64_t seed, Random& random)
         : batch(number % LightVertex::kBatches),
@@ -195,8 +195,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   return course;
 }
 
-// Whether a light path enters the room through a portal. It ends there, because the paths that start on the
-// portal carry this light already.
+// Whether a light path enters the room through a portal. It ends there, because paths that start on the
+// portal carry this light.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
   const Portals& portals = all_.surfaces_.portals();
   return !portals.empty() &&
@@ -209,7 +209,7 @@ void LightVertices::Path::leaveSky(double where) {
   beam_.origin = way.origin;
   beam_.direction = way.direction;
   beam_.power = way.power;
-  past_.way = LightVertex::unweighed;  // the places in view look for it themselves
+  past_.way = LightVertex::unweighed;  // places in view sample portals for this light
   past_.fromSource = false;
   past_.bounces = way.bounces;
 }
@@ -256,7 +256,7 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 }
 
 // Reflects the path at a mirror; returns false if it ends. It ends at the black back of a mirror. A path that
-// comes directly from its source also ends at curved mirrors, because they make no images of sources.
+// comes directly from its source also ends at curved mirrors, which make no images of sources.
 bool LightVertices::Path::meetMirror(const Hit& hit) {
   if (hit.cosine <= 0 ||
       (past_.fromSource && all_.starts_.onSources.imageOf(past_.source, hit.surface) == kNone))
@@ -387,7 +387,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   const auto count = static_cast<double>(paths);
   size_t met = 0, metUnknown = 0;
   for (size_t i = 0; i < paths; ++i) {
-    // Stratified, so that all batches have nearly the same number of paths from each source.
+    // Stratified, so that batches have nearly equal numbers of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
     const Path::Course course = Path(prepared, *this, i, seed, outdoors).send(where);
     met += course.met;
@@ -449,12 +449,12 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 }
 
 double NearLight::closeShare(double distance, double fromEye) const {
-  // The share is cut off beyond ten times the distance at which it is 1/2, so that it is 0 for most vertices.
+  // The fraction is 0 beyond ten times the distance at which share() is 1/2, and so for most vertices.
   constexpr double kRest = 1. / 101;
   const double close = tuning::LightVertices::kWidth * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
-  // Places next to the eye are left to the rays: glances are dense there, while light vertices are a
-  // few centimeters apart, so that nearly all answers would miss their light.
+  // Places next to the eye are left to rays: glances are dense there, but light vertices are a few
+  // centimeters apart, so that most answers would miss their light.
   return std::max(0., (share - kRest) / (1 - kRest)) * (1 - this->share(fromEye));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Light vertices: the places where light paths from the sources hit diffuse surfaces. Joined to paths from
+// Light vertices: the places where light paths from the sources hit diffuse surfaces. Connected to paths from
 // the eye (bidirectional path tracing: vertex_light.h), they provide light that paths from the eye alone
 // would find only by chance.
 //
@@ -9,7 +9,8 @@
 // - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
 //   reflections.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
-//   direct sunlight, it is light of other surfaces or of the sky, which sharp reflections transport, too.
+//   direct sunlight, daylight comes from the sky and from other surfaces, and sharp reflections transport it,
+//   too.
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -24,28 +25,28 @@
 
 namespace rsphere {
 
-// How the light between diffuse surfaces is divided between rays and light vertices by distance (world
-// units).
+// The light between two diffuse surfaces is divided by their distance (world units): rays estimate the light
+// of near surfaces, light vertices the light of far ones.
 struct NearLight {
   double width = 0;       // distance at which share() is 1/2
   double meanLength = 1;  // of light paths from the sources to the first surfaces
 
-  // The fraction of the light between two diffuse surfaces at this distance that rays estimate, because
-  // vertices would make it too noisy. It falls with the fourth power of the distance: the few rays that meet
-  // something bright far away would be noisier than the vertices there.
+  // The fraction that rays estimate at this distance, because vertices would make it too noisy. It falls with
+  // the fourth power of the distance: far away, few rays meet bright surfaces, and they would be noisier than
+  // vertices.
   double share(double distance) const {
     const double ratio = distance * distance / (width * width);
     return 1 / (1 + ratio * ratio);
   }
-  // The largest distance at which share() is at least this share, which is above 0.
+  // The distance at which share() has this value, which is above 0.
   double distanceOf(double share) const { return width * std::sqrt(std::sqrt((1 - share) / share)); }
-  // The fraction of the light counted by share() that joins with the eye estimate instead of rays, because
-  // rays rarely hit narrow gaps. Gaps count as narrow relative to fromEye, the distance of the place from the
-  // eye. Joins are bounded by the same kernel as light between diffuse surfaces.
+  // The fraction of share() that is left to joins of the place with the eye, because rays rarely hit narrow
+  // gaps. A gap is narrow if it is small compared with fromEye, the distance of the place from the eye. Joins
+  // use the bounded kernel of light between diffuse surfaces.
   double closeShare(double distance, double fromEye) const;
 };
 
-// A vertex that may be joined directly to the eye, the point whose answer is computed.
+// A vertex that may be connected directly to the eye, which is the point whose answer is computed.
 struct VisibleVertex {
   LightVertex vertex;
   Irradiance power;  // as LightVertices::powerOf(); for direct light, without the color of the material
@@ -58,7 +59,7 @@ struct VisibleVertex {
   LightId source;  // for direct light: where the light path began, and the cosine there
   double cosineAtSource;
 
-  // The fraction of the vertex's light that is estimated by joins with an eye at this distance.
+  // The fraction of the vertex's light that joins with an eye at this distance estimate.
   double joinedShare(const NearLight& near, double fromEye) const {
     if (vertex.way == LightVertex::diffuse) return near.closeShare(length, fromEye) * near.share(length);
     return vertex.way == LightVertex::highlight ? 1 - near.share(length) : 1;
@@ -68,7 +69,7 @@ struct VisibleVertex {
 class VisibleVertices {
  public:
   void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
-  // Removes all, and reserves memory for as many, times a factor.
+  // Removes all vertices, and reserves memory for their number times a factor.
   void clearFor(double times);
   // Call this once, after the last vertex has been added.
   void sort(const PreparedScene& prepared);
@@ -77,7 +78,7 @@ class VisibleVertices {
   // Calls use(begin, end) for ascending index ranges of all(). They contain all vertices except some that are
   // hidden from the point.
   void from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
-  // Where LightVertices::shadowRaysTo() keeps its result for one of all(); 0: not computed yet.
+  // Memory for the result of LightVertices::shadowRaysTo() for a vertex of all(); 0: not computed yet.
   std::atomic<double>& shadowRaysTo(const VisibleVertex& v) const {
     return shadowRays_[static_cast<size_t>(&v - all_.data())];
   }
@@ -90,7 +91,7 @@ class VisibleVertices {
   mutable std::vector<std::atomic<double>> shadowRays_;
 };
 
-// Shared by all threads; constant, but for what is computed when it is first asked for.
+// Shared by all threads. Constant, except for values that are computed when they are first needed.
 class LightVertices {
  public:
   // Sends paths from the sources, distributed as in `emission`. Keeps a reference to the surfaces. outdoors:
@@ -98,7 +99,7 @@ class LightVertices {
   LightVertices(const PreparedScene& prepared, const PlainSurfaces& surfaces, SourceEmission emission,
                 size_t paths, uint64_t seed, const OutdoorParts* outdoors = nullptr);
 
-  // The share of the paths that starts on portals for light of the sky; the others start on sources.
+  // The fraction of the paths that start on portals, with light of the sky; the others start on sources.
   static double shareOfSky(const PlainSurfaces& surfaces);
 
   // Vertices that send light to other diffuse surfaces. The vertices of a cluster are consecutive.
@@ -112,16 +113,16 @@ class LightVertices {
 
   const VisibleVertices& visible() const { return visible_; }
   // SourceEmission::shadowRaysOver() for shadow rays from a vertex of visible() to the place on the source
-  // where the light path began. Computed when it is first asked for: in a building, most vertices are in
-  // other rooms. REQUIRES direct light.
+  // where the light path began. Computed when it is first needed: in a building, most vertices are in other
+  // rooms. REQUIRES direct light.
   double shadowRaysTo(const VisibleVertex& vertex) const;
   const NearLight& nearLight() const { return near_; }
   const SourceEmission& emission() const { return starts_.onSources; }
   // Mean power of a path, W (brightness).
   double pathPower() const { return starts_.pathPower; }
 
-  // The probability of following a path from the eye at a place, for light that neither vertices nor near
-  // rays estimate. The more light hits unknown surfaces, the higher it is.
+  // The probability of following a path from the eye at a place, for the light that neither vertices nor rays
+  // to near surfaces estimate. It increases with the fraction of light that hits unknown surfaces.
   double shareOfRest() const { return shareOfRest_; }
 
  private:
@@ -139,7 +140,7 @@ class LightVertices {
     Starts(SourceEmission emission, const Portals& portals, double shareOfSky, size_t paths);
 
     SourceEmission onSources;
-    double shareOfSky;  // of the paths: these start on portals, for light of the sky
+    double shareOfSky;  // LightVertices::shareOfSky()
     SkyEmission onPortals;
     double pathPower;  // mean, W (brightness)
   };

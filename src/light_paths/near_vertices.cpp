@@ -36,11 +36,11 @@ std::optional<NearVertices> NearVertices::of(std::span<const LightVertex> vertic
   if (near.vertices_.empty()) return {};
   const V3d size = box.size();
   near.origin_ = box.min;
-  // Not smaller in scenes that have more cubes along an axis than there are numbers.
+  // Lower bound: cubes along an axis must not outnumber kMost.
   const double least = std::max({size.x, size.y, size.z}) / (kMost / 4);
   near.side_ = std::max(2 * width, least);
   ByCube byCube = near.sorted(vertices);
-  // The mean number of vertices that share a cube, which grows with its face.
+  // The mean number of vertices in the cube of a vertex. It grows with the area of the cube's face.
   double pairs = 0;
   forEachCube(byCube, [&](size_t begin, size_t end) {
     pairs += static_cast<double>(end - begin) * static_cast<double>(end - begin);

@@ -1,8 +1,8 @@
 #pragma once
-// Finds the light vertices around a place whose light grows without bound as the place comes near them
-// (LightVertex::isUnbounded()). Clusters of vertices are up to meters wide: such a vertex would seldom be
-// sampled by its cluster at a place a few centimeters away, and would then represent thousands of times its
-// light.
+// Finds unbounded light vertices around a place: vertices whose light grows without bound as the place comes
+// near them (LightVertex::isUnbounded()). Clusters of vertices are up to meters wide. Sampled by its cluster
+// alone, an unbounded vertex a few centimeters from the place would be chosen rarely, and then represent
+// thousands of times its light.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,10 +21,10 @@ struct LightVertex;
 class NearVertices {
  public:
   // Empty if none of the vertices is unbounded. width: half the side of the largest cubes, world units, above
-  // 0. All vertices within half the side of the cubes are among those of around().
+  // 0. around() contains all unbounded vertices within half the side of the cubes.
   static std::optional<NearVertices> of(std::span<const LightVertex> vertices, double width);
 
-  // The vertices in the eight cubes next to a place.
+  // The unbounded vertices in the eight cubes next to a place.
   class Around {
    public:
     bool empty() const { return !(power_ > 0); }
@@ -59,7 +59,7 @@ class NearVertices {
   V3d origin_{0, 0, 0};
   double side_ = 1;
   std::vector<uint32_t> vertices_;  // indices of the unbounded ones, by cube
-  std::vector<double> sums_;        // of the power of those before each of vertices_, and of all
+  std::vector<double> sums_;        // cumulative power before each of vertices_, then the total
   struct Slot {
     uint64_t key = 0;
     Around::Part part;

@@ -1,6 +1,6 @@
 #pragma once
-// The light beyond portals (portals.h), as paths from the eye find it. Light paths receive it as a function,
-// because PathTracer, which computes it, is itself built on them.
+// The light beyond portals (portals.h), found by paths from the eye. Light paths receive it as a function,
+// because PathTracer, which computes it, depends on light paths.
 #include <vector>
 
 #include "base/function_ref.h"
@@ -14,8 +14,8 @@ namespace rsphere {
 using OutdoorRadiance =
     FunctionRef<Radiance(const V3d& origin, const V3d& direction, int bounces, Random& random)>;
 
-// The same, divided by the number of further diffuse bounces: element i of the result is the light after i of
-// them.
+// OutdoorRadiance, separated by the number of further diffuse bounces: element i of the result is the light
+// after i bounces.
 using OutdoorParts = FunctionRef<void(const V3d& origin, const V3d& direction, int bounces, Random& random,
                                       std::vector<Radiance>& parts)>;
 

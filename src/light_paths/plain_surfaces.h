@@ -2,7 +2,7 @@
 // The surfaces and light sources that bidirectional estimation can handle, called "known" (light_vertices.h,
 // vertex_light.h):
 // - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
-//   patterns, if these are the same for all rays;
+//   patterns, if these depend on place alone;
 // - local sources at which shadow rays can be aimed, and their images in mirrors;
 // - in scenes without these, distant sources, and all light that enters through portals (portals.h).
 // Paths from both ends estimate the light of known sources that has met only known surfaces. Paths from the
@@ -29,7 +29,7 @@ struct PlainPlace {
 // The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal
 // first.
 struct Sight {
-  Hit hit;                // its distance is that from the last pane
+  Hit hit;                // its distance is measured from the last pane
   double distance = 0;    // of the hit from the line's start, world units
   Coefficient passed{1};  // fraction of the light that the panes in between transmit
   bool leaves = false;    // through a portal, at this distance
@@ -50,8 +50,8 @@ class PlainSurfaces {
   // portals: none if daylight is not known.
   explicit PlainSurfaces(const PreparedScene& prepared, Portals portals = {});
 
-  // The reason why paths from both ends cannot be used or would provide too little light; null if they can be
-  // used.
+  // The reason why paths from both ends cannot be used, or why they would provide too little light; null if
+  // they can be used.
   const char* obstacle() const;
 
   // How much of the scene's light paths from both ends estimate.
@@ -60,9 +60,10 @@ class PlainSurfaces {
     bool allSources = true;  // all sources are known
     bool all = true;         // all light: all surfaces and sources are known
     bool allDirect = true;   // all direct light of known surfaces
-    // A surface sends light that only rays find: it is not, or not everywhere, sampled as a source.
+    // Some surface emits light that shadow rays miss, wholly or in part; only a ray that hits the surface
+    // finds it.
     bool glows = false;
-    // More than half of the area is of surfaces that are not known (one side of each, without instances and
+    // More than half of the area of all surfaces is not known (one side of each, without instances and
     // meshes).
     bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
@@ -95,7 +96,7 @@ class PlainSurfaces {
   // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`, as in
   // look().
   Coefficient passing(const V3d& to, const V3d& from, SurfaceId start) const;
-  // The same from a source in a direction (unit), regardless of portals.
+  // The transmittance of the panes between a place and a source in a direction (unit); portals are ignored.
   Coefficient passingToSource(const V3d& to, const V3d& direction, double distance, SurfaceId start) const;
 
   // The place that is hit by a line from `origin` in a direction, given the result of look().
@@ -126,7 +127,7 @@ double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,
                 std::vector<double>& weights);
 
 // Whether paths from both ends estimate the light of a source that arrives at a point straight from a
-// direction (unit): that of distant sources only through portals.
+// direction (unit). For distant sources they do so only through portals.
 inline bool bringLightOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,
                          const V3d& direction) {
   const Portals& portals = surfaces.portals();

@@ -25,8 +25,8 @@ SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, 
   way.direction = sentFrom(portal->normal, random);
   if (most < 1) return way;
   // If a mirror or a highlight throws the light onto a surface in view, a path from the eye reaches the
-  // portal after one bounce. Otherwise it has two: at the first surface that the light path will hit, and
-  // before that at a surface that is lit by it. LightVertices leaves out what then exceeds the limit.
+  // portal after one bounce. Otherwise the path has two bounces: at a surface in view, and at the first
+  // surface that the light path will hit. LightVertices omits light that then exceeds the limit.
   std::vector<Radiance> parts;
   outdoors(portal->at(u, v), -way.direction, 1, random, parts);
   double all = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Starts light paths on portals (portals.h), for all light that comes through them but direct sunlight.
+// Starts light paths on portals (portals.h), for all light that comes through them except direct sunlight.
 #include "light_paths/outdoor_light.h"
 #include "openings/portals.h"
 
@@ -17,9 +17,8 @@ class SkyEmission {
   struct Leaving {
     V3d origin{0, 0, 0}, direction{0, 0, 1};  // world; unit
     Irradiance power;                         // of the path, W
-    // Number of bounces that count for its light when it arrives at the first surface: 1, because paths from
-    // the eye find such light by an indirect ray, plus those outdoors. It is the same for all light of a
-    // path.
+    // Number of bounces of its light when it arrives at the first surface: the bounces outdoors plus 1,
+    // because paths from the eye find this light by an indirect ray. All light of a path has this number.
     int bounces = 0;
   };
   // where: 0 to 1, selects the portal. most: limit on the bounces of the light; below 1: no light.

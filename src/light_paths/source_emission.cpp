@@ -146,7 +146,8 @@ SourceEmission::Way SourceEmission::way(LightId source, Numbers& random, Functio
 }
 
 // Estimates the power of a source that is not even, from random directions. One more direction is assumed to
-// show the source without patterns, so that the result is above 0 even if the others miss all of its light.
+// show the source without patterns, so that the result is above 0 even if the random directions miss all of
+// its light.
 double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;
@@ -181,7 +182,7 @@ bool SourceEmission::isAimedAt(LightId source) const {
   return senders_[source].even && (light.isDistant() || light.as<PlaneLight>() || light.as<BallLight>());
 }
 
-// The density (1/m2) of the points on a source at which shadow rays from a place are aimed, at the point of a
+// The density (per area of the source, 1/m2) with which shadow rays from a place are aimed at the point of a
 // sample; 0 if it is unknown. cosine: between the ray and the normal at that point. REQUIRES a source that is
 // not distant.
 double SourceEmission::aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const {

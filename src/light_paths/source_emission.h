@@ -1,6 +1,6 @@
 #pragma once
-// Starts light paths on known sources (plain_surfaces.h). The number from each is proportional to its power.
-// Paths of distant sources start on portals (portals.h), by projected area.
+// Starts light paths on known sources (plain_surfaces.h). The number of paths from each source is
+// proportional to its power. Paths of distant sources start on portals (portals.h), by projected area.
 //
 // An "even" source emits the same radiance from all points in all directions. Spotlights are not even, nor
 // are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates (a
@@ -19,7 +19,7 @@ class SourceEmission {
   // paths: total number of paths from all sources.
   SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths);
 
-  // The same, with most paths from preferred sources, each of these paths with less power. At most, this
+  // An emission with most paths from preferred sources, each of which then has less power. This at most
   // doubles the noise from other sources. preferred: numbers of LightIds; for a virtual source, its real
   // source is preferred.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
@@ -33,7 +33,7 @@ class SourceEmission {
   LightId sourceAt(double share) const;
 
   struct Leaving {
-    SurfacePoint from;       // of a distant source, on a portal, facing the way that the light goes
+    SurfacePoint from;       // of a distant source: on a portal, facing along the light
     V3d direction{0, 0, 1};  // unit
     Irradiance power;        // of the path, W
   };
@@ -48,12 +48,12 @@ class SourceEmission {
   double divergence(LightId source, double distance) const;
   // Whether the density of shadow rays towards the source is known.
   bool isAimedAt(LightId source) const;
-  // The density of shadow rays from a place to a point on an even source, divided by the density of light
-  // paths through both (m2). normal: at the place (unit). probability: of selecting this source for a shadow
-  // ray.
+  // For a place and a point on an even source: the density of shadow rays from the place to the point,
+  // divided by the density of light paths from the point to the place (m2). normal: at the place (unit).
+  // probability: of selecting this source for a shadow ray.
   double shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
                         double probability) const;
-  // The same for samples of a lobe with this density per sr.
+  // As shadowRaysOver(), for samples of a lobe with this density per sr instead of shadow rays.
   double lobesOver(const SourceSample& sample, const V3d& normal, double density) const;
   // The image of a source in a mirror; kNone if there is none, or if the image lights nothing.
   LightId imageOf(LightId source, SurfaceId mirror) const;
@@ -62,7 +62,7 @@ class SourceEmission {
   struct Sender {
     double power = 0;  // W, of brightness; approximate unless it is even
     double upTo = 0;   // cumulative fraction of the paths, including those of this source
-    // Its number of paths per power, relative to the mean of all sources; 1 without preference.
+    // Number of its paths divided by its power, relative to the mean of all sources; 1 without preference.
     double factor = 1;
     double density = 0;  // of paths that start on it (1/m2); 0: not even
     double area = 0;     // m2; of a distant source, the projected area of the portals
@@ -73,7 +73,7 @@ class SourceEmission {
     SurfacePoint from;
     V3d direction{0, 0, 1};
     Radiance radiance{};
-    double weight = 1;  // density of a diffuse emitter's light here, divided by the density of candidates
+    double weight = 1;  // density of a diffuse emitter's light, divided by the density of candidates
   };
   template <class Numbers>
   Way way(LightId source, Numbers& random, FunctionScratch& scratch) const;

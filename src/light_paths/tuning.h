@@ -16,10 +16,10 @@ struct LightVertices {
   // (DiffuseGlances). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no
   // effect beyond noise.
   //
-  // It is also the distance at which those rays leave half of their light to joins with the eye
+  // The constant has a second use: the distance at which rays leave half of their light to joins with the eye
   // (NearLight::closeShare()), relative to the smaller of the distance from the eye and the mean distance.
-  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of
-  // 2 mm between a sheet of paper and the goal. Measured for this use: with .01, the error around the goal is
+  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of 2
+  // mm between a sheet of paper and the goal. Measured for this use: with .01, the error around the goal is
   // 10% larger, in a tenth less time; .4 has no effect beyond noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
 };
@@ -36,10 +36,11 @@ struct VertexLight {
   // followed.
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kClusters, 128);
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kCandidates, 8);
-  // One more candidate is sampled from the vertices next to a place whose light is not bounded there, which
-  // are found by a grid of cubes. The value is the mean number of them in the cube of such a vertex, unless
-  // they are farther apart than LightVertices::kWidth. Measured on a wall close to a ceiling that mirrors
-  // light: relative variance without this candidate 39; with the value 1, 2, 4, 8, 16: 5.1, 3.5, 2.0, 4.1, 8.
+  // One more candidate is sampled from the unbounded vertices next to a place (near_vertices.h), which are
+  // found by a grid of cubes. The size of the cubes is chosen so that the cube of an unbounded vertex has
+  // this number of them on average, unless they are farther apart than LightVertices::kWidth. Measured on a
+  // wall close to a ceiling that mirrors light: relative variance without this candidate 39; with the value
+  // 1, 2, 4, 8, 16: 5.1, 3.5, 2.0, 4.1, 8.
   RSPHERE_TUNED(VertexLight, double, kInCube, 4);
   // When vertices are clustered, this is the distance that is assigned to opposite normals, in units of twice
   // the diagonal of the box around all vertices. With .12, the variance of this light is up to three times as
@@ -47,16 +48,17 @@ struct VertexLight {
   RSPHERE_TUNED(VertexLight, double, kFacing, .05);
   // Number of candidates that get a shadow ray. 8 has no effect beyond noise.
   RSPHERE_TUNED(VertexLight, int, kJoined, 2);
-  // Rough surfaces that are seen in a mirror usually get one shadow ray. If their specularity is at least
-  // this, they get the shadow rays of ordinary next-event estimation instead, because a single ray would make
-  // their highlights too noisy: brushed steel beside a goal of radiance 1 would show up to 14 W/sr/m2.
+  // Rough surfaces seen in a mirror usually get one shadow ray. If their specularity is at least this, they
+  // get the shadow rays of ordinary next-event estimation, because with a single ray their highlights would
+  // be too noisy: brushed steel beside a goal of radiance 1 would show up to 14 W/sr/m2.
   RSPHERE_TUNED(VertexLight, double, kStrong, .1);
   // Probability of a gather at a surface that is seen in a reflection. The gather estimates light that has
   // reached the surface by another reflection, which vertices do not provide.
   //
   // At a place that the eye sees directly, a path from the eye estimates the light that light paths do not
-  // bring. It is always followed if at least this fraction of the hits of light paths are on unknown
-  // surfaces. If fewer are, the probability is proportional to their fraction, but at least half of this.
+  // carry. It is always followed if at least the fraction kFollowed of all hits of light paths are on unknown
+  // surfaces. If fewer are, its probability is proportional to their fraction, but at least half of
+  // kFollowed.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 

@@ -221,7 +221,7 @@ size_t VertexClusters::clusterOf(uint32_t vertex) const {
   return static_cast<size_t>(std::ranges::upper_bound(ends_, vertex) - ends_.begin());
 }
 
-// Adds one vertex of those around the place. Each candidate has two ways to be sampled then.
+// Adds one vertex of those around the place. A candidate can then be sampled in two ways.
 void VertexClusters::addNear(const Receiver& to, const Numbers& weights, double scale, Random& random,
                              Candidates& drawn) const {
   const NearVertices::Around around = near_->around(to.point);

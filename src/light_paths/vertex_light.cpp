@@ -101,7 +101,7 @@ Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
   return surfaces_.radianceOf(sample.source, point, sample.normal, sample.direction, scratch) * passed;
 }
 
-// The same for a virtual source. Black unless each mirror on the path is hit.
+// arriving() for a virtual source. Black unless the path hits each mirror.
 Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                                         FunctionScratch& scratch) const {
   const auto& lights = prepared_.lights().all();
@@ -141,8 +141,9 @@ double VertexLight::lobesOver(const PlainPlace& at, const V3d& view, const Sourc
   return vertices_.emission().lobesOver(sample, at.normal, density);
 }
 
-// The share of a direct estimate in the light from a direction, by the balance heuristic. shadowRays, lobes:
-// densities of both estimates, divided by that of light paths; the share is that of the first.
+// The weight of a direct estimate by the balance heuristic, for light from one direction. shadowRays, lobes:
+// densities of the two direct estimates, divided by the density of light paths; the result is the weight of
+// the first.
 double VertexLight::shareOf(const PlainPlace& at, const Seen& seen, const SourceSample& sample,
                             double shadowRays, double lobes) const {
   if (!(shadowRays > 0)) return 0;

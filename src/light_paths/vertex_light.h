@@ -6,7 +6,7 @@
 // a random direction supplies the difference: the light of the place that it hits at a distance d is added
 // with the probability c^4 / (d^4 + c^4) (Kollig and Keller 2004, "Illumination in the presence of weak
 // singularities"). These rays do not sample light that has reached a vertex by a highlight or a sharp
-// reflection, so that c is 0 for such vertices. If the place is joined to the eye, these rays also find
+// reflection, so that c is 0 for such vertices. If the place is connected to the eye, these rays also find
 // highlights of sources on near surfaces, which light paths hit too rarely in corners.
 #include "light_paths/light_vertices.h"
 #include "light_paths/vertex_clusters.h"
@@ -32,13 +32,13 @@ class VertexLight {
     const OutdoorRadiance* outdoors = nullptr;  // during a call, unless there are no portals
   };
 
-  // A place that is seen along a sampled direction from the eye. Its direct light is also estimated by
-  // joining light vertices to the eye; the two estimates are weighted by the balance heuristic.
+  // A place that is seen along a sampled direction from the eye. Its direct light is also estimated by joins
+  // of light vertices with the eye; the balance heuristic weights the two estimates.
   struct Seen {
     V3d view;            // direction (unit) of the ray that hits it
     double density = 0;  // of the eye's samples there, per area of the surface (1/m2)
     double joins =
-        0;  // probability that a light vertex there is joined to the eye, divided by joinedReflectance()
+        0;  // probability that a light vertex there is connected to the eye, divided by joinedReflectance()
     Shown shown = Shown::all;
   };
   // The direct light that the place sends to the eye, diffusely and by a rough highlight (W/sr/m2): by a
@@ -52,8 +52,8 @@ class VertexLight {
   struct Record {
     BatchSums batches{};
     // The part of the variance of `batches` that is caused by the random choice among vertices, not by the
-    // vertices. It is the sum of the squared contributions, each times the fraction of similar vertices that
-    // were not chosen.
+    // vertices. It is the sum of the squared contributions, each times the probability that the vertex is not
+    // chosen.
     Color squares{0, 0, 0};
     double squaredBrightness = 0;
     const SpectralSampling* sampling = nullptr;
@@ -62,7 +62,7 @@ class VertexLight {
   };
   struct Indirect {
     int bounces = 1;  // limit for the light: -ab minus the bounces between the eye and the place
-    // Distance from the eye, if joins of light vertices at the place with the eye provide closeShare();
+    // Distance from the eye, if joins of light vertices at the place with the eye estimate closeShare();
     // otherwise 0.
     double fromEye = 0;
     Record* record = nullptr;  // null: contributions are not recorded
