@@ -67,7 +67,7 @@ Blockers::Blockers(const Scene& scene, const Tracer& tracer)
 
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 
-// The blocker that an opaque polygon of the scene itself is for rays from a point; null if it is none.
+// The opaque polygon of the scene itself as a blocker for rays from a point; null if it cannot be one.
 KnownBlocker Blockers::find(SurfaceId id, const V3d& from) const {
   if (id.index() >= scene_.outermostIds().size()) return nullptr;
   const Surface surface = scene_.surfaces[id];
@@ -120,7 +120,7 @@ KnownBlocker Blockers::made(SurfaceId id, const Polygon& polygon, bool front) co
   return blocker;
 }
 
-// It is only looked up when it is needed, because most polygons can be rejected in less time.
+// The area is only looked up when it is needed, because most polygons can be rejected in less time.
 const Blocker::Whole& Blockers::wholeOf(const Blocker& blocker) const {
   std::call_once(blocker.lookedUp, [&] {
     const Surface surface = scene_.surfaces[blocker.surface];
@@ -134,9 +134,9 @@ const Blocker::Whole& Blockers::wholeOf(const Blocker& blocker) const {
   return blocker.whole;
 }
 
-// The segments from one box to another, and what the search for a blocker has found out about them.
+// The segments from one box to another, and the results so far of the search for a blocker.
 struct Blockers::Way {
-  // Narrowed to what can be seen through the holes of the areas that were examined.
+  // Narrowed to the parts that are visible through the holes of the areas examined so far.
   Box3d from;
   Box3d to;
   // Whether an area extends far enough to hide the box, but has a hole or a gap.
@@ -148,8 +148,9 @@ struct Blockers::Way {
   bool narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
 };
 
-// Narrows each box to what can be seen of it from the other through the holes of an area. Returns true if
-// nothing can. axis: perpendicular to the area; cuts: where segments between the boxes' corners intersect it.
+// Narrows each box to the part that is visible from the other box through the holes of an area. Returns true
+// if nothing is visible. axis: perpendicular to the area; cuts: where segments between the boxes' corners
+// intersect it.
 bool Blockers::Way::narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
                                   double inset) {
   Box3d all, open;
@@ -193,11 +194,11 @@ bool Blockers::isClear(const V3d& from, const V3d& to) const {
 // Whether every segment from one box to the other hits the front of the blocker (the side from which find()
 // saw it) before it reaches anything that refracts light.
 //
-// This holds for all places within kBeside times margin() of the boxes, too. Places behind a blocker that is
-// perpendicular to an axis are an exception, since regions end closer to it.
+// The result also holds for all places within kBeside times margin() of the boxes. Places behind a blocker
+// that is perpendicular to an axis are an exception, since regions end closer to it.
 //
-// If a segment misses the polygon, looks whether anything blocks it before the area is looked up, which may
-// take long.
+// If a segment misses the polygon, tests whether anything blocks the segment before looking up the area,
+// which may take long.
 //
 // If some segments pass through holes, the boxes are narrowed to the ends of such segments. Slabs whose holes
 // are not above one another may then hide a box together.

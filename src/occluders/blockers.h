@@ -2,10 +2,10 @@
 // Opaque polygons that hide one box from another. See hidden_boxes.h.
 //
 // A polygon hides a box from another if it intersects every segment between them. It is enough to test the
-// segments between their corners: the convex hull of the points where these intersect the polygon's plane
-// contains the intersections of all segments ("shaft culling", Haines and Wallace 1991). Polygons of one
-// plane that touch count as one. If it has a hole, only segments through the hole remain to be blocked by the
-// next polygon (portal sequences: Teller and Sequin 1991).
+// segments between corners: the convex hull of their intersections with the polygon's plane contains the
+// intersections of all segments ("shaft culling", Haines and Wallace 1991). Polygons of one plane that touch
+// count as one. Segments through a hole must be blocked by the next polygon (portal sequences: Teller and
+// Sequin 1991).
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -29,7 +29,7 @@ struct Blocker {
   double offset = 0;
   uint32_t edges = 0;  // 0: only the area hides boxes
   std::array<V3d, kMostVertices> inward{};
-  std::array<double, kMostVertices> least{};  // of each edge: inward . p for its points p
+  std::array<double, kMostVertices> least{};  // of each edge: inward . p for points p of the edge
   int axis = -1;                              // that is perpendicular to the polygon's plane; -1: none
 
   // The area, or the polygon alone if it belongs to none. Blockers::wholeOf() looks it up.
@@ -55,9 +55,9 @@ class Blockers {
   const Box3d& bounds() const { return tracer_.bounds(); }
 
   // Whether a blocker hides everything in box `to` from everything in box `from`. known: blockers that were
-  // found for nearby boxes. The first of them was the last one that hid a box.
-  // fromBothEnds: if holes let light pass the first surfaces on the way, the last ones are examined too. In a
-  // tall building with holes in its slabs, often only the last slab hides a box.
+  // found for nearby boxes, beginning with the one that hid a box last. fromBothEnds: if holes let light pass
+  // the first surfaces on the way, the last ones are examined too. In a tall building with holes in its
+  // slabs, often only the last slab hides a box.
   bool hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocker>& known, bool fromBothEnds) const;
 
   // Calls use() with each blocker on the way between two points until use() returns true. Returns whether it
@@ -78,7 +78,7 @@ class Blockers {
   const Tracer& tracer_;
   double margin_ = 0;
   JoinedPolygons joined_;
-  // Those that were found so far, by surface and side; null for polygons that are no blockers.
+  // Guards the blockers found so far, by surface and side; null for polygons that cannot block.
   mutable std::mutex finding_;
   mutable std::unordered_map<uint64_t, KnownBlocker> found_;
 };

@@ -17,7 +17,7 @@ struct BoxTree {
   };
   std::vector<Box3d> boxes;     // all boxes, including empty ones
   std::vector<uint32_t> order;  // indices of the boxes that are not empty, in spatial order
-  std::vector<Node> nodes;      // empty if there are no such boxes
+  std::vector<Node> nodes;      // empty if all boxes are empty
 
   BoxTree() = default;
   // Fewer than 2^32 boxes.

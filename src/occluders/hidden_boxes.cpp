@@ -10,20 +10,20 @@ namespace rsphere {
 namespace {
 
 // A region is divided if polygons hide at least the fraction kWorthHiding of its boxes, and at least
-// kLeastHidden boxes, from places in it. Division stops after kMostInVain successive divisions none of which
-// has hidden a quarter of the boxes. That number must be above five, because it takes five divisions to
+// kLeastHidden boxes, from places in it. Division stops after kMostInVain successive divisions of which none
+// has hidden a quarter of the boxes. kMostInVain must be above five, because it takes five divisions to
 // isolate the region on one side of a slab: one along the slab, and one along each of its four edges.
 constexpr double kWorthHiding = .4;
 constexpr size_t kLeastHidden = 2;
 constexpr int kMostInVain = 6;
-// Divisions along the edges of a slab cut thin strips off a region. Boxes that are hidden from the rest are
-// looked for only after the last of them: a half with more than this share of the region's width is divided
-// first, but at most kMostUntested times.
+// Divisions along the edges of a slab cut thin strips off a region. Boxes that are hidden from the remaining
+// region are only searched for after the last division: a half with more than this fraction of the region's
+// width is divided first, but at most kMostUntested times.
 constexpr double kSameRegion = .99;
 constexpr int kMostUntested = 8;
-// A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in
-// it is this many times as far away as the nearest. With a million lamps below a bare floor, 340 were looked
-// at for each ray with 17, and 170 with 5, in the same time; without such divisions, about 100,000.
+// A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in it
+// is this many times as far away as the nearest. With a million lamps below a bare floor, each ray examines
+// 340 lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these divisions.
 constexpr double kSameDistance = 5;
 // Number of boxes that are examined to decide whether a region is divided.
 constexpr size_t kProbes = 32;
@@ -33,7 +33,8 @@ constexpr double kWorthDividing = .25;
 // Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
 // boxes are tested first.
 constexpr size_t kMostTests = 4096;
-// Only up to this number of boxes, it pays to look for what hides them from both ends of the way.
+// Up to this number of boxes, blockers are searched for from both ends of a segment; for more boxes this
+// takes more time than it saves.
 constexpr size_t kFewFromBothEnds = 4096;
 
 V3d middleOfOctant(const Box3d& box, size_t octant) {
@@ -57,12 +58,12 @@ double shareAcross(const Box3d& box, const Box3d& other, int axis) {
 }  // namespace
 
 struct HiddenBoxes::Region {
-  // Shared with the parent region if it hides no more boxes.
+  // Shared with the parent region if the division has hidden no further boxes.
   using List = std::shared_ptr<const std::vector<uint32_t>>;
 
   Box3d box{};
   List visible;  // indices of the boxes that are not certainly hidden, in ascending order
-  List places;   // the boxes among these that may be hidden, as places in BoxTree::order
+  List places;   // visible boxes that may be hidden from parts of the region: positions in BoxTree::order
   std::vector<KnownBlocker> blockers;
   int inVain = 0;     // number of divisions since the last one that hid a quarter of the boxes
   size_t before = 0;  // number of places after that division
@@ -157,10 +158,10 @@ std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Regio
 
 // Decides whether and where a region is divided. If a polygon extends across most of the region, the region
 // is divided along a plane next to the polygon, so that points of the polygon get a thin region. If the
-// polygon lies outside the region, it is divided along planes just inside the polygon's edges. What is cut
-// off there is a strip with the points of walls, such as those around a floor. The higher such a point is,
-// the more of what is below is hidden by the floor: a strip is divided by its distance from the polygon.
-// Without such a polygon, a region is divided in the middle.
+// polygon lies outside the region, it is divided along planes just inside the polygon's edges. This cuts off
+// strips that contain points of walls, for example around a floor. The higher a point of the wall is, the
+// more boxes below are hidden by the floor: a strip is therefore divided again by distance from the polygon.
+// Without a large polygon, a region is divided in the middle.
 void HiddenBoxes::divide(Region& region) const {
   if (region.places->size() <= kLeastHidden) return;
   const auto found = blockersIn(region);

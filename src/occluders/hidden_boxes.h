@@ -33,14 +33,14 @@ class HiddenBoxes {
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
-  // The same for a point of a surface that faces `front` (unit), for callers that ignore boxes behind the
-  // surface: such boxes may be in the result or not. For points on slabs and walls, this finds more hidden
-  // boxes.
+  // notHiddenFrom() for a point of a surface that faces `front` (unit), for callers that ignore boxes behind
+  // the surface: the result may or may not contain them. For points on slabs and walls, this finds more
+  // hidden boxes.
   std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const {
     return root_ ? find(beside(point, front)) : all_;
   }
 
-  // The same for the largest region around the point for which enough(result) is true; if it is never true,
+  // The result for the largest region around the point for which enough(result) is true; if it is never true,
   // for the smallest region.
   std::span<const uint32_t> widestWhere(const V3d& point,
                                         FunctionRef<bool(std::span<const uint32_t>)> enough) const;
@@ -48,7 +48,7 @@ class HiddenBoxes {
   // Whether the scene may be divided into regions, so that some boxes may be hidden.
   bool divides() const;
 
-  // What hides the boxes, for more boxes of the same scene.
+  // The blockers, which HiddenBoxes with other boxes of this scene may share.
   const std::shared_ptr<const Blockers>& blockers() const { return blockers_; }
 
  private:

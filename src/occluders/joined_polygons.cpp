@@ -15,8 +15,8 @@ namespace {
 constexpr double kLeastSize = 1. / 4096;
 // Polygons with more vertices are not joined, because each of their edges is compared with all others.
 constexpr uint32_t kMostVertices = 1024;
-// Normals are rounded to multiples of this to find polygons of the same plane, and so are offsets, in units
-// in which Scene::samePlace is kSamePlace. Decimal fractions are rarely halfway between two multiples.
+// To find polygons in one plane, normals are rounded to multiples of this, and so are offsets, in units in
+// which Scene::samePlace is kSamePlace. Decimal fractions are rarely halfway between two multiples.
 constexpr double kSameNumber = 1.2345678e-6;
 
 // Cap on the edges that are compared to find outlines, for each vertex in a plane. Looking up a point
@@ -29,10 +29,11 @@ constexpr size_t kMostCompared = 1024;
 // rounding of coordinates, and the tracer lets no ray pass between such polygons (meetsInside()).
 constexpr double kTouching = 16 * std::numeric_limits<double>::epsilon();
 
-// Distance from an edge at which it is decided what lies beside it, relative to that of polygons that touch.
+// Distance from an edge of the places that are tested on both sides of it, as a multiple of the distance
+// within which polygons touch.
 constexpr double kBeside = 8;
 
-// A polygon's normal, or its opposite: the same one for all polygons of a plane.
+// 1 or -1: the sign that gives all polygons of a plane one common normal.
 double signOf(const V3d& normal) {
   for (int i = 0; i < 3; ++i)
     if (std::abs(normal[i]) > .1) return normal[i] > 0 ? 1 : -1;
@@ -52,7 +53,7 @@ uint64_t planeOf(const Polygon& polygon, double samePlace) {
   return number;
 }
 
-// A convex octagon around points of a plane that is projected along an axis.
+// A convex octagon around points of a plane, in the projection along an axis.
 class Octagon {
  public:
   explicit Octagon(int axis) : u_((axis + 1) % 3), v_((axis + 2) % 3) {}
@@ -124,7 +125,7 @@ class Groups {
   std::vector<uint32_t> joinedTo_;
 };
 
-// A distance that is larger than any between polygons that touch. box: around all of them
+// An upper bound on the distance between polygons that touch. box: around all of them
 double touchingIn(const Box3d& box) {
   double touching = 0;
   for (int i = 0; i < 3; ++i) touching += kTouching * std::max(std::abs(box.min[i]), std::abs(box.max[i]));
@@ -161,8 +162,8 @@ bool JoinedPolygons::Area::contains(std::span<const V3d> points, double margin) 
 // Finds the areas of polygons in one plane.
 class JoinedPolygons::Joining {
  public:
-  // polygons: in the plane through the first of them with this normal. They all stop shadow rays from the
-  // same side.
+  // polygons: in the plane through the first of them with this normal. They all stop shadow rays from one
+  // side.
   Joining(const Scene& scene, const V3d& normal, std::vector<SurfaceId> polygons)
       : scene_(scene), normal_(normal), polygons_(std::move(polygons)), joined_(polygons_.size()) {
     std::vector<Box3d> boxes;
@@ -273,7 +274,7 @@ class JoinedPolygons::Joining {
     findHoles(area);
   }
 
-  // Parts of the outline that touch belong to the same hole. An area with a hole that touches its edge is not
+  // Parts of the outline that touch belong to one hole. An area with a hole that touches its edge is not
   // rectangular.
   void findHoles(Area& area) const {
     const auto& boxes = area.outlineTree_.boxes;

@@ -33,7 +33,7 @@ class JoinedPolygons {
     // Whether the convex hull of points in the area's plane lies within the area, at least `margin` away from
     // its outline (world units).
     bool contains(std::span<const V3d> points, double margin) const;
-    // Boxes around the holes in a rectangular area. Empty if there are none, or if it is not rectangular.
+    // Boxes around the holes in a rectangular area. Empty if the area has no holes or is not rectangular.
     const std::vector<Box3d>& holes() const { return holes_; }
 
    private:
@@ -62,7 +62,7 @@ class JoinedPolygons {
   const Area* areaOf(SurfaceId polygon, bool front) const;
 
  private:
-  // A polygon, and a number that is the same for all polygons of its plane.
+  // A polygon, and the number of its plane.
   struct InPlane {
     uint64_t plane;
     SurfaceId polygon;
@@ -72,8 +72,8 @@ class JoinedPolygons {
     std::vector<Area> areas;
     std::unordered_map<uint32_t, size_t> areaOf;  // by index of the polygon
   };
-  // The same for the whole plane. Polygons whose boxes touch are in the same group, and only the areas of
-  // groups that are asked for are found: in a tall building, surfaces of all storeys lie in one plane.
+  // The areas of a whole plane. Polygons whose boxes touch form a group, and the areas of a group are found
+  // when they are first needed: in a tall building, surfaces of all storeys lie in one plane.
   struct Plane {
     std::vector<std::vector<SurfaceId>> groups;
     std::vector<std::unique_ptr<const Areas>> areas;  // of each group, null if not yet found
