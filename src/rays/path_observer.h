@@ -63,7 +63,7 @@ struct TracedRay : RayQuery, SurfaceHit, RayResult {
   Hit firstHit;  // the hit that Tracer::nearest() found
   // The light source that the ray shows. It is hit directly, or after one reflection by a flat surface, or
   // straight through panes that also transmit shadow rays; a distant source also through parallel-sided
-  // slabs. If there are several, it is the one that is not mirrored, otherwise the first.
+  // slabs. If it shows several, this is the one that is not mirrored, otherwise the first.
   ShownSource shown;
   LeftOut leftOut;  // the parts of the surface's light that the request left out
 };

@@ -10,8 +10,8 @@
 
 namespace rsphere {
 
-// Bits that are combined with seeds, so that -Sr changes them. They are 0 for -Sr 0, where seeds depend only
-// on places and rays.
+// Bits that are combined with seeds, so that -Sr changes all random numbers. They are 0 for -Sr 0, where
+// seeds depend only on places and rays.
 inline uint64_t rotationBits(const RayOptions& options) {
   return options.rotation == 0 ? 0 : mixBits(options.rotation);
 }
@@ -26,7 +26,7 @@ class PreparedScene {
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
   // Prepares the scene of `other` with other options, without warnings. They share the tracer, which takes
-  // most of the memory and time in a large scene. REQUIRES that -bv is the same.
+  // most of the memory and time in a large scene. REQUIRES that both have the same -bv.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;

@@ -1,8 +1,7 @@
 #pragma once
-// A ray as a question and as an answer: what is asked along it, what it inherits from its ancestors, what it
-// hits and what it finds. The other headers of this folder have what all rays of a run ask with: options, the
-// prepared scene with its light sources, and the observer of a path. How the light is found is up to the
-// folders that follow.
+// A ray: the query, the context that it inherits from its ancestors, its hit and its result. The other
+// headers of this folder have the data that all rays of a run share: options, the prepared scene with its
+// light sources, and the observer of a path. Later folders compute the light.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -67,12 +66,13 @@ struct RayQuery {
   bool unobstructed = false;  // of shadow rays: surfaces between the origin and the source are ignored
 };
 
-// Whether a path has met only surfaces that bidirectional estimation knows (PlainSurfaces). If so, whether
-// paths from both ends estimate the reflected light that arrives at the last diffuse surface.
+// Whether a path has met only "known" surfaces, which bidirectional estimation can handle (PlainSurfaces),
+// and if so, whether paths from both ends estimate the reflected light that arrives at the last diffuse
+// surface.
 enum class Known : uint8_t {
   no,
-  joined,   // they do: light vertices there are joined to the eye, or to the previous surface
-  unjoined  // they do not: the surface is seen in a reflection, and vertices are not joined through it
+  joined,   // they do: light vertices there are connected to the eye, or to the previous surface
+  unjoined  // they do not: the surface is seen in a reflection, through which vertices are not connected
 };
 
 // Data that a ray inherits from its ancestors. They do not change after the ray is followed.
@@ -90,7 +90,7 @@ struct PathContext {
   const RayEnd* parent = nullptr;  // null: a primary ray, or a ray that does not depend on earlier ones
   RaySpace space{};
   uint64_t clips = 0;           // bits (Surface::clip) of the surfaces that antimatter cuts away for this ray
-  Coefficient contribution{1};  // factor on its radiance, at its origin, in that of the primary ray
+  Coefficient contribution{1};  // factor on its radiance, at its origin, in the radiance of the primary ray
 };
 
 // The hit of a ray. Shading turns the normal and the values that depend on it towards the ray, and applies
@@ -108,8 +108,8 @@ struct SurfaceHit {
   // Whether normal, cosine and perturbation were flipped: because the surface was hit from behind, or because
   // antimatter cuts it, so that its front is the inside.
   bool fromBehind = false, insideOut = false;
-  // The perturbation of the normal. Its first value is that of a smooth mesh. Afterwards only modifiers
-  // change it, apart from flips. Only modifiers change the pattern, which irradiance (-i) ignores
+  // The perturbation of the normal: first that of a smooth mesh, to which textures add; a flip reverses it.
+  // `pattern` is the product of all patterns. Irradiance (-i) ignores the changes by modifiers
   // (SurfaceShading).
   V3d perturbation{0, 0, 0};
   Color pattern{1, 1, 1};
@@ -155,7 +155,7 @@ struct NextRay {
 
   RayQuery query;
   PathContext context;
-  Coefficient coefficient;  // factor on its radiance in that of its parent
+  Coefficient coefficient;  // factor on its radiance in the radiance of its parent
 };
 
 }  // namespace rsphere

@@ -1,6 +1,6 @@
 #pragma once
-// The recursion of the path tracer, as an interface for its parts. These choose directions from which light
-// may arrive, and request the radiance along them.
+// The recursion of the path tracer, as an interface for its parts. The parts choose directions from which
+// light may arrive, and request the radiance along them.
 #include "rays/ray_functions.h"
 
 namespace rsphere {
@@ -17,7 +17,7 @@ struct InnerPath {
   RayFollower& follower;
 };
 
-// What each part of the path tracer refers to, all parts to the same.
+// The objects to which all parts of a path tracer refer.
 struct PathPart {
   const PreparedScene& t_;
   const PathSettings& settings_;
@@ -33,7 +33,7 @@ class RayFollower {
     RayEnd end(ray, context);
     return follow(end);
   }
-  // The same; also sets the hit of the ray's end.
+  // Follows the ray of `end`, and sets the hit there.
   virtual RayResult follow(RayEnd& end) = 0;
 
   // The radiance that arrives at a surface from behind, as if the surface were not there.
@@ -41,7 +41,7 @@ class RayFollower {
     NextRay next = straightOn(end);
     return passOn(next, end);
   }
-  // The same along a given continuation of the ray, which may pass through another medium.
+  // pass() along a given continuation of the ray, which may pass through another medium.
   virtual RayResult passOn(NextRay& next, const RayEnd& end) = 0;
 
   // Shades the end of a ray that hit a surface with this chain of modifiers. False, without any effect, if

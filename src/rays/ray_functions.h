@@ -10,7 +10,7 @@
 
 namespace rsphere {
 
-// The mean reflectance of surfaces, a usual value for rooms; RADIANCE uses the same one. With interpolated
+// The mean reflectance of surfaces: a usual value for rooms, which RADIANCE uses, too. With interpolated
 // light, it is the weight of each indirect ray relative to its parent, instead of the small weight of one
 // among many directions. The weight limit then ends paths after some bounces, independently of the number of
 // directions.
@@ -20,7 +20,7 @@ inline constexpr double kMeanReflectance = .5;
 // irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};
 
-// The apparent distance of the object seen along a ray: that of a mirrored object if it contributes more than
+// The apparent distance of the object seen along a ray: of the mirrored object if this contributes more than
 // half of the radiance.
 inline double apparentLength(const RayResult& seen) {
   return brightness(seen.mirrored) > .5 * brightness(seen.value) ? seen.mirroredLength
@@ -69,7 +69,7 @@ inline NextRay::NextRay(const RayEnd& parent, RayKind kind, const Coefficient& o
   if (isMedium(parent.medium().extinction)) context.contribution *= passedBy(parent);
 }
 
-// A ray that continues another one in the same direction, with the same weight.
+// A ray that continues another one without a change of direction or weight.
 inline NextRay straightOn(const RayEnd& end) {
   NextRay next(end, kTransmitted, Coefficient(1));
   next.query.direction = end.ray.direction;

@@ -12,8 +12,8 @@ V3d along(const V3d& origin, double distance, const V3d& direction) {
              std::fma(distance, direction.z, origin.z));
 }
 
-// The distant source in the direction of a ray, or kNone. It is the first source that is neither a glow nor
-// an illum that transmits light, since it hides all others; if there is none, it is the first glow.
+// The distant source in the direction of a ray, or kNone. The result is the first source that is neither a
+// glow nor an illum that transmits light, because it hides all others; if there is none, the first glow.
 SurfaceId distantSource(const PreparedScene& prepared, const RayQuery& ray, unsigned kinds) {
   const Scene& scene = prepared.scene();
   const auto sees = [&](SurfaceId surface) {

@@ -10,8 +10,8 @@
 
 namespace rsphere {
 
-// The options of rtrace that control paths; rtrace(1) explains them. The defaults are those of rtrace. Sphere
-// mode has others (modeDefaults() in cli/option_table.h).
+// The options of rtrace that control paths; rtrace(1) explains them. The defaults are rtrace's; sphere mode
+// has others (modeDefaults() in cli/option_table.h).
 struct RayOptions {
   // -cs, -cw  The bands of a spectral run; null: three channels.
   const SpectralSampling* sampling = nullptr;

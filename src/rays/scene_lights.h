@@ -42,8 +42,8 @@ class SceneLights : public LightSources {
     const auto number = luminous_.numberOf(surface);
     return number ? LightId(*number) : kNone;
   }
-  // The radiance of a light source if it is the same for all points and directions; null if it must be
-  // computed for each ray.
+  // The radiance of a light source if it does not depend on point and direction; null if it must be computed
+  // for each ray.
   const Radiance* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
