@@ -43,11 +43,11 @@ FNR == 1 { n = split(FILENAME, path, "/"); split(path[n], part, "."); FS = ","; 
 END {
   print "# The paper's study again"
   print ""
-  print "What Costa, Sousa, Parracho and Cruz report in section 5 of \"A New Technique for Spherical Radiance Calculation\", on"
-  print "`examples/openplan` with 1 to 100 mirror spheres, and what they could not measure: the errors. Their environment is"
+  print "The results of section 5 of \"A New Technique for Spherical Radiance Calculation\" by Costa, Sousa, Parracho and Cruz, repeated"
+  print "on `examples/openplan` with 1 to 100 mirror spheres, with the errors, which they could not measure. Their environment is"
   print "described in words only (a closed open-plan space with furniture, goals on one desktop near the middle, 1 to 100 small"
-  print "very reflective spheres near the ceiling); ours is after that description. What their technique was for, the search for"
-  print "where luminaires should hang, is done in this room by [examples/layout](../layout/README.md#what-a-layout-costs-to-find)."
+  print "very reflective spheres near the ceiling); ours follows this description. The purpose of their technique, finding the best"
+  print "places for luminaires, is achieved in this room by [examples/layout](../layout/README.md#what-a-layout-costs-to-find)."
   print ""
   print "Made by `examples/paper/run FOLDER` in " seconds " s on " date ": " machine ";"
   print version ", " compiler "."
@@ -56,7 +56,7 @@ END {
   print "- equal weights: their previous technique, 4096 directions (`-Sw h -Sn 4096`)"
   print "- the paper's: 2048 fixed directions, and up to 2048 to special objects, weighted by plain Voronoi cells"
   print "  (`-Sw v -Sn 2048 -Sx 4096`)"
-  print "- ours: cells that keep to the silhouettes, light sources integrated apart (`-Sw c -Sn 2048 -Sx 4096`, the default)"
+  print "- ours: cells that end at silhouettes, light sources integrated separately (`-Sw c -Sn 2048 -Sx 4096`, the default)"
   print "- radiance: the luminaires are lit, points are where heads of 12 who sit at desks are; importance: the goal desktop"
   print "  emits (`-Sg goal`), as in the paper, points are 12 under the ceiling"
   print "- low quality: `-ab 1 -ad 1`; high quality: `-ab 5 -ad 1`"
@@ -101,12 +101,12 @@ END {
       whole(high_v), whole(low_c), whole(high_c), part[1] == "light" ? "" : part[2] == "low" ? "68 to 93%" : "65 to 76%"
   }
   print "\nThe paper's ratio follows the number of directions: its cells, which were a good part of the time when the paper was"
-  print "written, cost .2 ms a point. Ours takes longer than equal weights, since each of its directions brings a dozen glances"
-  print "at diffuse surfaces, and light paths from the sources are traced first, for all 12 points. A time says nothing without the"
-  print "error that it buys."
+  print "written, cost .2 ms a point. Ours takes longer than equal weights, since each of its directions adds a dozen glances"
+  print "at diffuse surfaces, and light paths from the sources are traced first, for all 12 points. Times are meaningful only"
+  print "together with errors."
 
   print "\n## Errors, and time at equal error\n"
-  print "50 spheres. The last column is the time, as a share of what equal weights take for the same error (a power law through"
+  print "50 spheres. The last column is the time as a fraction of the time of equal weights for an equal error (a power law through"
   print "their errors with 1024, 4096 and 16384 directions). Bias with its standard error; \"says\" is the error that the setting"
   print "estimates itself (`-oe`)."
   for (r = 1; r <= 4; ++r) {
@@ -179,33 +179,18 @@ END {
   printf "  %s to %s of their time for radiance (low quality), %s to %s (high); for importance %s to %s and %s to %s. So\n", \
     whole(low_paper[1]), whole(high_paper[1]), whole(low_paper[2]), whole(high_paper[2]), whole(low_paper[3]), \
     whole(high_paper[3]), whole(low_paper[4]), whole(high_paper[4])
-  print "  it does not help here: what errs is the light of sources (or of the goal) seen directly, for which it has half as many"
-  print "  directions, not what 50 spheres of 10 cm reflect. Its plain cells reach over the edges of silhouettes, too."
+  print "  it does not help here: the error is due to sources (or the goal) seen directly, for which it has half as many"
+  print "  directions, not to reflections in 50 spheres of 10 cm. Its plain cells also extend across the edges of silhouettes."
   printf "- Ours takes, at the paper's numbers of directions, %s (low quality) and %s (high) of the time of equal weights at\n", \
     whole(own_share[1]), whole(own_share[2])
   printf "  equal error for radiance, %s and %s for importance.\n", whole(own_share[3]), whole(own_share[4])
   printf "- With other numbers of directions it is %s to %s (low) and %s to %s (high) for radiance.\n", \
     whole(low_share[1]), whole(high_share[1]), whole(low_share[2]), whole(high_share[2])
-  print "  That is the integration of light sources by their own solid angle, more than directions to special objects."
-  printf "- For importance it is then %s to %s (low) and %s to %s (high). The goal is one desktop: it is integrated apart where it\n", \
+  print "  The reason is the separate integration of light sources, more than directions to special objects."
+  printf "- For importance it is then %s to %s (low) and %s to %s (high). The goal is one desktop: it is integrated separately where it\n", \
     whole(low_share[3]), whole(high_share[3]), whole(low_share[4]), whole(high_share[4])
-  print "  is seen, and light paths from it bring what arrives by other surfaces."
+  print "  is seen, and light paths from it bring the light that arrives by other surfaces."
   print "- Rows with `-Sk 0` are without directions to special objects, and without glances and light paths. For radiance with one"
   print "  bounce they take about the same time at equal error, for importance longer."
   print "  tests/bench/README.md has two rooms where directions to special objects count."
-
-  print "\n## What changed since 2026-11-23\n"
-  print "Then, all indirect light came by paths from the point. Now light paths from the sources (or from the goal) meet glances from"
-  print "the point (\"Light from both ends\" in [src/README.md](../../src/README.md)). Ours at the paper's numbers of"
-  print "directions, 50 spheres; times are of other machines, shares are not:\n"
-  print "| | rms error, then | now | time at equal error, then | now |"
-  print "|---|---|---|---|---|"
-  split(".23% .22% 3.29% 3.69%", then_error, " ")
-  split("4% 3% 20% 21%", then_share, " ")
-  for (r = 1; r <= 4; ++r) {
-    split(runs[r], part, ".")
-    key = part[1] SUBSEP part[2] SUBSEP 50
-    printf "| %s | %s | %s | %s | %s |\n", title(part[1], part[2]), then_error[r], percent(rms[key, ours[key]]), then_share[r], \
-      whole(own_share[r])
-  }
 }
