@@ -109,7 +109,7 @@ class Coverage {
  private:
   struct Extent {
     int low[2] = {kCells, kCells}, high[2] = {-1, -1}, cells = 0;
-    // Lengths of the outline, and of the part of it at the edge of the wall (world units).
+    // Lengths of the outline, and of its part at the edge of the wall (world units).
     double outline = 0, free = 0;
   };
   enum class Cell : uint8_t { open, wall, counted };

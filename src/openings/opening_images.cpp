@@ -30,7 +30,7 @@ Rectangle imageIn(const Rectangle& mirror, const Rectangle& place) {
           place.height};
 }
 
-// The fraction of the opening's light that falls on the mirror. An estimate: from middle to middle.
+// The fraction of the opening's light that falls on the mirror, estimated between the middles of both.
 double shareOf(const Rectangle& opening, const Rectangle& mirror) {
   const V3d way = mirror.at(.5, .5) - opening.at(.5, .5);
   const double squared = way.length2();

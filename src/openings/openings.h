@@ -16,8 +16,8 @@
 
 namespace rsphere {
 
-// Panes or a hole, with their bounding rectangle. Its normal points to the dark side: the side that receives
-// light through the opening.
+// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light
+// through the opening.
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;
@@ -26,7 +26,7 @@ struct Opening : Rectangle {
 
 class Openings {
  public:
-  // Made by findOpenings(). inside, depth: as returned by the functions of these names.
+  // Made by findOpenings(). inside, depth: results of the functions inside() and depth().
   Openings(std::vector<Opening> openings, double inside, double depth)
       : openings_(std::move(openings)), inside_(inside), depth_(depth) {}
 
@@ -51,8 +51,8 @@ class Openings {
   // normal: unit, on the side where the light arrives.
   void aim(const V3d& point, const V3d& normal, Aim& aim) const;
 
-  // A direction from the point towards an opening (unit); u1, u2, u3: uniform in [0, 1), of which u1 selects
-  // the opening. REQUIRES aim.mean > 0.
+  // A direction from the point towards an opening (unit); u1, u2, u3: uniform in [0, 1). u1 selects the
+  // opening. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
 
   // The density of the directions from sample(), per sr.

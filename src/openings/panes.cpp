@@ -5,7 +5,7 @@
 namespace rsphere {
 
 // Cap on the number of panes that a line crosses, far above that of any building. Rounding errors could
-// otherwise keep a line at the same pane forever.
+// otherwise keep a line at one pane forever.
 constexpr int kMostPanes = 1000;
 
 static_assert(kMaterialTypes == 19, "Does diffuse light pass?");

@@ -51,7 +51,7 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
   for (Seen& s : seen_) s.upTo /= sum;
 }
 
-// chosen: contains the direction, whatever rounding does.
+// chosen: the portal that is known to contain the direction, despite rounding.
 double PortalDirections::density(const V3d& direction, const Seen& chosen) const {
   double sum = 0, before = 0;
   for (const Seen& s : seen_) {

@@ -1,7 +1,7 @@
 #pragma once
 // Openings (openings.h) as the light sources of paths from both ends. A path from the eye that leaves through
-// a portal, from its dark side to its bright side, ends there: all light that comes from beyond is light of
-// the portal, however it got there. So no path of light is counted twice, whatever is outdoors.
+// a portal, from its dark side to its bright side, ends there: all light from beyond is treated as light of
+// the portal. Thus no light is counted twice, whatever is outdoors.
 #include <span>
 #include <vector>
 
@@ -11,8 +11,8 @@
 
 namespace rsphere {
 
-// A portal lies a little outside of its opening, so that a pane in the opening belongs to the room, whatever
-// rounding does.
+// A portal lies a little outside of its opening, so that a pane in the opening belongs to the room despite
+// rounding.
 struct Portal : Rectangle {
   double radiance = 0;  // estimated mean of the light that enters (W/sr/m2, brightness)
 };
@@ -25,7 +25,7 @@ class Portals {
 
   bool empty() const { return portals_.empty(); }
   std::span<const Portal> all() const { return portals_; }
-  // How far the portals lie outside of their openings (world units).
+  // The distance of the portals from their openings, on the bright side (world units).
   double lift() const { return lift_; }
 
   // The distance at which a straight line first leaves through a portal; kFarAway if it does not within
@@ -49,7 +49,7 @@ class PortalDirections {
 
   struct Sample {
     V3d direction;     // unit
-    double share = 0;  // of the mean over the hemisphere; 0: no portal is seen, or only below the horizon
+    double share = 0;  // weight in the mean over the hemisphere; 0: no portal is visible above the horizon
   };
   Sample draw(Random& random) const;
 

@@ -1,5 +1,6 @@
 #pragma once
-// The regions at which directions from a point are aimed, each with an estimate of the light from it.
+// Regions at which directions from a point are aimed (importance sampling), with estimates of the light from
+// each.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,7 @@ struct Proposals {
   }
   // The sum of the contributions before region i; before(count) is the total.
   double before(size_t i) const { return i > 0 ? upTo[i - 1] : 0; }
-  // The index that u selects; u: uniform in [0, 1). REQUIRES: count > 0.
+  // The index selected by u; u: uniform in [0, 1). REQUIRES: count > 0.
   size_t chosen(double u) const {
     const double due = u * upTo[count - 1];
     size_t i = 0;
@@ -48,7 +49,7 @@ struct Proposals {
 // A finder of regions with its fraction of a mixture of directions. A finder has the members
 //   Aim                          its proposals at a point
 //   sample(aim, u1, u2, u3)      a direction towards a region (unit); u1, u2, u3: uniform in [0, 1)
-//   density(aim, direction)      the density of these directions, per sr
+// density(aim, direction) the density of sample(), per sr
 template <class Finder>
 struct ShareOfMixture {
   const Finder* finder;

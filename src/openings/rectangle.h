@@ -25,9 +25,9 @@ inline bool contains(const Rectangle& r, const V3d& at) {
   return u >= 0 && v >= 0 && u <= r.width && v <= r.height;
 }
 
-// The form factor to the front of the rectangle from a place with this normal (unit), estimated from five
-// points of it. filled: area of the parts that count (square world units). counts(at): whether light comes
-// from a point.
+// The form factor to the front of the rectangle from a place with this normal (unit), estimated from five of
+// its points. filled: area of the parts that send light (square world units). counts(at): whether a point
+// sends light.
 template <class Counts>
 double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V3d& normal, Counts counts) {
   if (!((point - r.corner).dot(r.normal) > 0)) return 0;
@@ -59,8 +59,8 @@ double areaTowards(std::span<const Opening> openings, const V3d& direction) {
   return sum;
 }
 
-// A point on them, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES that this area is above
-// 0.
+// A point on the openings, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES a projected
+// area above 0.
 template <class Opening>
 V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3) {
   double due = u1 * areaTowards(openings, direction);
@@ -75,8 +75,8 @@ V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double
 }
 
 // The smallest rectangle around coplanar polygons that is aligned with the longest edge of the first polygon.
-// Edges whose lengths differ only by rounding are treated as equal, and the first is used. The normal is that
-// of the first polygon. REQUIRES at least one polygon. The area may be 0 if a polygon has no area.
+// Edges whose lengths differ only by rounding are treated as equal, and the first is used. The normal is the
+// first polygon's. REQUIRES at least one polygon. The area may be 0 if a polygon has no area.
 Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> polygons);
 
 // The vertices of a polygon of the scene (world units).

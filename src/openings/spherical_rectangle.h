@@ -11,7 +11,7 @@ class SphericalRectangle {
  public:
   SphericalRectangle(const V3d& point, const Rectangle& rectangle);
 
-  // 0 if it is too small, or seen too much edge-on, to be sampled.
+  // 0 if the rectangle is too small or too nearly edge-on to be sampled.
   double solidAngle() const { return solidAngle_; }
   // A direction (unit), for uniform u and v in [0, 1). REQUIRES solidAngle() > 0.
   V3d sample(double u, double v) const;

@@ -9,23 +9,23 @@ namespace rsphere::tuning {
 
 // Caps that limit the time of each gather, and the time at start.
 struct Caps {
-  // Cap on each of these numbers; the brightest ones are kept:
+  // Cap on each of the following numbers; the brightest elements are kept:
   // - the openings, the spots and the highlights on balls at which rays from one point are aimed;
-  // - the parts of sources of which one ball shows highlights.
+  // - the parts of sources whose highlights one ball shows.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
-  // more. Chosen by experiment: the densities of all of them are evaluated for each aimed ray. Insensitive.
+  // more. Chosen by experiment: each aimed ray evaluates all their densities. Insensitive.
   RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept.
   // Insensitive.
   //
-  // The same number is used for
-  // - the light paths that measure the mean distance from the sources to the first surfaces,
+  // The constant is also
+  // - the number of light paths that measure the mean distance from the sources to the first surfaces,
   // - the least number of light paths in a batch,
-  // - the directions that estimate the power of a source with a pattern or a cone. If single values vary as
-  //   much as their mean, such means are known within 3%;
-  // - the cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
-  //   nearly all paths earlier.
+  // - the number of directions that estimate the power of a source with a pattern or a cone. If single values
+  //   vary as much as their mean, these means are known within 3%;
+  // - the cap on the surfaces that a light path hits between facing mirrors. Russian roulette ends nearly all
+  //   paths earlier.
   RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
   // Number of rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and
   // (as a minimum) to each opening that may matter there. Chosen by experiment. A mean is then known within
@@ -74,17 +74,17 @@ struct Openings {
   // the sky on its other side, but little sky is seen through them.
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
-  // A hole is treated as the same opening as another one if both are parallel (cosine of the angle at least
-  // kParallel) and the distance between their middles is below kSameHole times the shortest side of both.
-  // This finds the two faces of a wall, which are nearer to each other than a door is wide.
+  // Two holes are treated as one opening if they are parallel (cosine of the angle at least kParallel) and
+  // the distance between their middles is below kSameHole times the shortest side of both. This finds the two
+  // faces of a wall, which are nearer to each other than a door is wide.
   static constexpr double kParallel = .99, kSameHole = .5;
   // Rays are aimed at the image of an opening in a mirror that reflects at least this fraction of the light
-  // of all openings. Derived: light that is left to unaimed rays and reaches one of a thousand of them has
-  // an error of a third of itself with 8192 rays, .3% of the whole.
+  // of all openings. Derived: if one in a thousand unaimed rays finds the light of the mirror, its error with
+  // 8192 rays is a third, and thus .3% of all light.
   static constexpr double kLeastMirrored = .01;
   // Coplanar panes are merged into one opening, and the cells of a hole are treated as one opening, if they
   // fill at least this fraction of their bounding rectangle. Most directions towards the rectangle then hit
-  // them. With .91, the answers of all cases of tests/bench/sensitivity are the same.
+  // them. With .91, no answer in tests/bench/sensitivity changes.
   static constexpr double kFilled = .5;
 };
 
