@@ -1,9 +1,9 @@
 #pragma once
 // Highlights of light sources on rough balls, such as chrome knobs, feet and handles. A ball reflects the
-// light of a source in all directions, from a highlight that is far smaller and brighter than the ball. If
-// gathers hit highlights only by chance, highlights cause much of the variance of indirect light beside a
-// ball. Some rays are therefore aimed at them, with multiple importance sampling (balance heuristic: Veach
-// and Guibas 1995). The place of a highlight follows from the law of reflection; its extent follows from the
+// light of a source in all directions, from a highlight that is far smaller and brighter than the ball. Where
+// gathers hit highlights only by chance, these cause much of the variance of indirect light beside a ball.
+// Some rays are therefore aimed at them, with multiple importance sampling (balance heuristic: Veach and
+// Guibas 1995). The place of a highlight follows from the law of reflection; its extent follows from the
 // curvature, the roughness and the source. Highlights that are missed or misplaced change the variance, not
 // the mean.
 //
@@ -20,8 +20,8 @@ namespace rsphere {
 class BallHighlights {
  public:
   // Uses spheres of plastic or metal. Shadow rays find the sources that each sphere sees. Keeps no
-  // references. least: as in aim(); above 0. At points where a ball's highlights add less than this to the
-  // variance, the ball is not searched.
+  // references. least: see aim(); above 0. Points at which a ball's highlights add less than this to the
+  // variance ignore the ball.
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
@@ -40,7 +40,7 @@ class BallHighlights {
   // Balls below it are ignored.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // As in Highlights (highlights.h).
+  // See Highlights (highlights.h).
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
   double density(const Aim& aim, const V3d& direction) const;
 
@@ -52,7 +52,7 @@ class BallHighlights {
   struct Ball {
     Sphere sphere;
     double roughness = 0;
-    double intensity = 0;  // W/sr, of brightness; the same in every direction
+    double intensity = 0;  // W/sr, of brightness, in every direction
     double hot = 0;        // mean square radiance seen from a point = hot * cosine / distance^2
     std::vector<Part> parts;
   };

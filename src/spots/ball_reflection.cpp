@@ -43,7 +43,7 @@ V3d mirroringNormal(const Sphere& ball, const V3d& point, const V3d& to, bool di
     turn = {std::cos(angle), std::sin(angle)};
     const double at = excess(turn);
     if (std::abs(at) <= kExact * kExact * (atHigh - atLow)) break;
-    // The Illinois rule: if the same end of the interval is kept twice, its value is halved.
+    // The Illinois rule: if an end of the interval is kept twice, its value is halved.
     if (at < 0) {
       low = angle;
       atLow = at;

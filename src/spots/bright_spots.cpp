@@ -184,13 +184,13 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   if (!(power > 0) || !(area > 0)) return {};
   const double usual = power / area;
 
-  // Particles are halved recursively down to the smallest groups. Then the group to divide next is the one
-  // whose worth grows most if it is divided down to the smallest groups. The growth by a single division
-  // would be misleading: dividing a room in half gains almost nothing until the spot of its lamp is isolated.
+  // Particles are halved recursively down to the smallest groups. The group to divide next is the one whose
+  // worth grows most if it is divided completely. The gain of a single division would be misleading: dividing
+  // a room in half gains almost nothing until the spot of its lamp is isolated.
   struct Branch {
     Node node;
-    double finest = 0;  // the worth of all the smallest groups in it
-    size_t halves = 0;  // index of the first of the two; 0 if there are none
+    double finest = 0;  // total worth of the smallest groups in it
+    size_t halves = 0;  // index of its first half; 0: not divided
     double gain() const { return halves > 0 ? finest - node.worth() : 0; }
   };
   std::vector<Branch> tree{{Node(all, samePlace_)}};
@@ -199,8 +199,8 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     auto halves = tree[i].node.halves();
     tree[i].halves = tree.size();
     tree.push_back({std::move(halves.first)});
-    tree.push_back({std::move(halves.second)});  // total worth of the smallest groups in it
-  }                                              // index of the first of its two halves; 0: not divided
+    tree.push_back({std::move(halves.second)});
+  }
   for (size_t i = tree.size(); i-- > 0;) {
     const size_t halves = tree[i].halves;
     tree[i].finest = halves > 0 ? tree[halves].finest + tree[halves + 1].finest : tree[i].node.worth();
@@ -272,8 +272,8 @@ RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& fr
 }
 
 V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
-  // Below 1 in single precision too: with 1, the last spot would be chosen even if it contributes nothing
-  // because it contains the point. There are no directions to such a spot.
+  // Below 1 in single precision, too: 1 would select the last spot even if that contributes nothing because
+  // it contains the point, and there are no directions to a spot around the point.
   const float due = std::min(static_cast<float>(u1), 1 - 0x1p-24f) * aim.sum[aim.count - 1];
   size_t i = 0;
   while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;

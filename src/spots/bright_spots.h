@@ -7,7 +7,7 @@
 // (Jensen 1995, "Importance driven path tracing using the photon map"). Spots that are missed or misplaced
 // change the variance, not the mean.
 //
-// The other small and bright places are highlights of light sources on rough balls and cylinders, which
+// Another kind of small and bright places are highlights of light sources on rough balls and cylinders, which
 // follow from the geometry (highlights.h).
 #include <array>
 #include <optional>
@@ -25,8 +25,8 @@ namespace rsphere {
 class BrightSpots {
  public:
   // Traces tuning::BrightSpots::kParticles particles from the sources. The spots depend only on the scene; an
-  // evenly lit scene has none. openings: if not null, the same number of particles is also traced from
-  // distant sources through the openings. Keeps no references.
+  // evenly lit scene has none. openings: if not null, equally many particles are also traced from distant
+  // sources through the openings. Keeps no references.
   BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
               const Openings* openings = nullptr);
 

@@ -12,11 +12,11 @@
 namespace rsphere {
 namespace {
 
-// Allows for rounding, so that an upper bound stays one.
+// Margin for rounding, so that upper bounds remain valid.
 constexpr double kRounding = 1 + 1e-9;
 
 static_assert(kLightForms == 8, "How large can it appear?");
-// The largest area that a source can show (square world units).
+// The largest visible area of a source from any direction (square world units).
 double largestArea(const LightSource& source) {
   return match(
       source.shape, [](const PlaneLight& plane) { return plane.area; },

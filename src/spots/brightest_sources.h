@@ -1,5 +1,5 @@
 #pragma once
-// Finds the light sources that light a place most, without looking at all of them: in a tall building, the
+// Finds the light sources that light a place most without examining all sources: in a tall building, the
 // lamps of other storeys are far away.
 #include <vector>
 
@@ -14,8 +14,8 @@ class BrightestSources {
   BrightestSources(const Scene& scene, const LightSources& lights);
 
   // The parts of sources that may light objects within a radius (world units) around places in a box
-  // (partsThatLight()), in the order of the sources. Parts are left out only if `most` others have a larger
-  // product of radiance and solid angle. placeFor: the place to which a source is compared; in the box.
+  // (partsThatLight()), in the order of the sources. Parts are left out only if `most` other parts have a
+  // larger product of radiance and solid angle. placeFor: the place in the box from which a source is seen.
   std::vector<LightingPart> at(const Box3d& places, double radius, size_t most,
                                FunctionRef<V3d(const LightSource&)> placeFor) const;
 

@@ -93,9 +93,9 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   return cylinder;
 }
 
-// The reflection minimizes the length of the path from the source to the point. Projected along the axis, the
-// reflecting place is therefore that of a circle, regardless of the heights of both ends. Its height follows
-// from unrolling the cylinder, which makes the path straight.
+// The reflection minimizes the length of the path from the source to the point. In projection along the axis,
+// the reflecting place is therefore that of a circle, whatever the heights of source and point. Its height
+// follows from unrolling the cylinder, which makes the path straight.
 void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   const double leastOfOne = least / tuning::Highlights::kLeastOfFew;

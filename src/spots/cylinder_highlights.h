@@ -1,9 +1,9 @@
 #pragma once
-// Highlights of light sources on rough cylinders, such as chrome legs of chairs, rails and pipes. As on balls
-// (ball_highlights.h), they are far smaller and brighter than the object. A highlight is visible at the place
-// where the directions to the point and to the source make equal angles with the axis; if that place lies
-// beyond an end, there is none. Unlike those of a ball, highlights are therefore searched for each point
-// separately.
+// Highlights of light sources on rough cylinders, such as chrome legs of chairs, rails and pipes. Like those
+// on balls (ball_highlights.h), they are far smaller and brighter than the object. A highlight is visible at
+// the place where the directions to the point and to the source make equal angles with the axis; if this
+// place lies beyond an end, there is no highlight. Unlike highlights on balls, they are therefore searched
+// for each point separately.
 #include "openings/proposals.h"
 #include "openings/tuning.h"
 #include "spots/brightest_sources.h"
@@ -15,8 +15,8 @@ namespace rsphere {
 class CylinderHighlights {
  public:
   // Uses cylinders and tubes of plastic or metal, seen from outside. Shadow rays find the sources that each
-  // of them sees. Keeps a reference to lights. least: as in aim(); above 0. At points where a cylinder's
-  // highlights add less than this to the variance, the cylinder is not searched.
+  // cylinder sees. Keeps a reference to lights. least: see aim(); above 0. Points at which a cylinder's
+  // highlights add less than this to the variance ignore the cylinder.
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
@@ -30,10 +30,10 @@ class CylinderHighlights {
 
   // front: unit normal. least: threshold (square of W/sr/m2) for the estimated variance that all highlights
   // together add to the radiance from one direction, if directions are sampled by projected solid angle.
-  // Below it, no direction is aimed at them.
+  // Below the threshold, no direction is aimed at highlights.
   void aim(const V3d& point, const V3d& front, double least, Aim& aim) const;
 
-  // As in Highlights (highlights.h).
+  // See Highlights (highlights.h).
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
   double density(const Aim& aim, const V3d& direction) const;
 
@@ -41,7 +41,7 @@ class CylinderHighlights {
   struct Part {
     LightingPart lighting;
     double radiance;  // brightness of the part's image, W/sr/m2
-    double hot;       // upper bound, as `Cylinder::hot`
+    double hot;       // the part's contribution to Cylinder::hot
   };
   struct Cylinder {
     Cone shape;

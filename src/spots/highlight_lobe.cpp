@@ -59,7 +59,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   lengthwise = (x * x * place.xx + 2 * x * y * place.xy + y * y * place.yy) / 2;
   magnified = 1 / (4 * length * length * rate.determinant());
   spread = std::sqrt(apart.determinant()) * cosine / (2 * length * length * rate.determinant());
-  // The distribution of these places as directions from the point.
+  // The distribution of reflecting places, as directions from the point.
   const double a = tuning::Highlights::kWider / length, b = a * cosine;
   lobe = HighlightLobe(-in, across, (along - along.dot(in) * in).normalized(), a * a * place.xx,
                        a * b * place.xy, b * b * place.yy);

@@ -65,7 +65,8 @@ struct Highlight {
   static constexpr double kApart = 1.02;
 
   HighlightLobe lobe;  // wider than the highlight by the factor tuning::Highlights::kWider
-  // The solid angle of the part's image on a smooth surface, divided by that of the part as seen from `at`.
+  // The solid angle of the part's image on a smooth surface, divided by the solid angle of the part as seen
+  // from `at`.
   double magnified;
   // The variance of the highlight along the direction in which the surface is straight (square world units).
   double lengthwise;
@@ -82,7 +83,7 @@ struct Highlight {
 // others.
 const Opaque* roughReflector(const Scene& scene, const Surface& surface);
 
-// The fraction of the light, by brightness, that such a material reflects in highlights.
+// The fraction of the light, by brightness, that plastic or metal reflects in highlights.
 double reflectanceOf(const Opaque& material);
 
 }  // namespace rsphere

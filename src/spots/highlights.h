@@ -45,8 +45,8 @@ class Highlights {
     return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
   }
 
-  // The density of the directions from sample(), per sr. It integrates to less than 1, because some of them
-  // miss the highlight.
+  // The density of the directions from sample(), per sr. It integrates to less than 1, because some
+  // directions miss the highlight.
   double density(const Aim& aim, const V3d& direction) const {
     double sum = 0;
     if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);

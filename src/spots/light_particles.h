@@ -1,5 +1,5 @@
 #pragma once
-// Particles that carry light from the sources of a scene, all with the same power.
+// Particles that carry light from the sources of a scene, each with an equal part of the power.
 #include "base/function_ref.h"
 #include "base/random.h"
 #include "light/sources.h"
@@ -17,8 +17,8 @@ using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, d
 // units). The power of a distant source is the power that enters a disk with this radius.
 double powerOf(const Scene& scene, const LightSource& light, double reach);
 
-// Sends about `count` particles from all real sources; the number from each is proportional to its power.
-// Particles of distant sources start outside the scene. The particles depend only on the scene.
+// Sends about `count` particles from all real sources; the number from each source is proportional to its
+// power. Particles of distant sources start outside the scene. The particles depend only on the scene.
 void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
                    SentParticle each);
 

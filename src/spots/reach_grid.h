@@ -1,6 +1,6 @@
 #pragma once
-// Finds the objects of limited reach that matter at a point, in a time that does not depend on the number of
-// all objects.
+// Finds the objects that matter at a point, in a time that does not depend on the number of all objects. Each
+// object matters within a limited distance, its reach.
 #include <array>
 #include <cstdint>
 #include <span>

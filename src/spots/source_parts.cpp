@@ -14,7 +14,7 @@ namespace rsphere {
 namespace {
 
 // Cap on the number of parts along each side of a source. A single source then has at most Caps::kAimed
-// parts, the cap for all sources together.
+// parts, which is the cap for all sources together.
 const double kMostAlong = std::sqrt(static_cast<double>(tuning::Caps::kAimed));
 
 static_assert(kLightForms == 8, "Is it round?");

@@ -9,27 +9,27 @@ namespace rsphere::tuning {
 
 // Spots of strong direct light, at which indirect rays are aimed (bright_spots.cpp).
 struct BrightSpots {
-  // Number of particles traced from the sources; the same number is traced from distant sources through
-  // openings. Derived: if all of them hit spots, a spot is hit by 128 on average, and its power is known
-  // within 9%, 1/sqrt(128). 80 particles find a spot that reflects a hundredth of the light. Insensitive.
+  // Number of particles traced from the sources, and of those traced from distant sources through openings.
+  // Derived: if all particles hit spots, a spot is hit by 128 on average, and its power is known within 9%,
+  // 1/sqrt(128). 80 particles find a spot that reflects a hundredth of the light. Insensitive.
   static inline const double kParticles = 128. * Caps::kAimed;
   // A spot reflects at least this many times as much light per area as the mean of all surfaces. Chosen by
   // experiment. For light that enters through openings, the threshold is half of this, because few rays of a
-  // patch of the coarse solution hit its spots. Measured in a sunlit classroom:
+  // patch of the coarse solution hit these spots. Measured in a sunlit classroom:
   //   threshold   noise at sensors
   //   6           1.55%
   //   3           1.16%
   //   2           1.27%
   //
-  // Aiming makes a path 25% more expensive, so that it has to reduce the noise enough. Directions are only
+  // Aiming makes a path 25% more expensive, and must reduce the noise enough to pay. Directions are only
   // aimed if the worth of all spots together (Node::worth) exceeds this multiple of the worth that all
   // surfaces would have under uniform light. Measured:
   //   scene                             relative worth   noise relative to no aiming
   //   room with a lit lampshade         31               one third
   //   open-plan office, around a goal    8               two thirds
   //   small room, around a goal          2               slightly less than 1
-  // Insensitive. For light that enters through openings, no minimum worth is required; in the same classroom
-  // the relative worth is 2.3.
+  // Insensitive. For light that enters through openings, no minimum worth is required; in the sunlit
+  // classroom the relative worth is 2.3.
   RSPHERE_TUNED(BrightSpots, double, kBrighter, 5);
 };
 
@@ -48,27 +48,27 @@ struct Highlights {
   //   .05     .44%  .20%  2.71%     1.13  1.04  1.01
   //   .02     .23%  .28%  2.58%     1.16  1.07  1.02
   RSPHERE_TUNED(Highlights, double, kLeast, .05);
-  // Gathers with at least this number of rays search for highlights on cylinders. Derived: in the same
-  // office, a search takes as long as two rays, at most an eighth of these. If single rays searched too,
-  // spherical means would take 1.5 times the time for the same noise.
+  // Gathers with at least this number of rays search for highlights on cylinders. Derived: in the office of
+  // kLeast, a search takes as long as two rays, at most an eighth of the gather. If single rays searched,
+  // too, spherical means would take 1.5 times the time for equal noise.
   RSPHERE_DERIVED(Highlights, int, kMany, 16);
   // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. Measured for
-  // spherical means in the same office: relative to no aiming at balls, the work for the same noise increases
-  // by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single highlight
-  // on cylinders, because many of them add up. Insensitive.
+  // spherical means in the office of kLeast: relative to no aiming at balls, the work for equal noise
+  // increases by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single
+  // highlight on cylinders, because many cylinders add up. Insensitive.
   RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
-  // wider part would be noticeably curved. Also for the parts of sources whose images in mirroring balls are
-  // targets (targets/glints.h). Derived: see SourceParts::kNear.
+  // wider part would be noticeably curved. Also used for the parts of sources whose images in mirroring balls
+  // are targets (targets/glints.h). Derived: see SourceParts::kNear.
   static constexpr double kHalf = SourceParts::kNear / 2;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
-  // of the region around the image of a source in a mirroring ball (targets/glints.h) to that image.
+  // of the region that surrounds the image of a source in a mirroring ball (targets/glints.h) to the image.
   // Without this margin, few directions would hit the edge, and a part of the image would be lost.
   // Insensitive.
   RSPHERE_TUNED(Highlights, double, kWider, 1.2);
-  // Lower bound on cosines, for surfaces seen edge-on. It is used for reflections, whose highlight would have
-  // no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a cylinder's
-  // axis and a distant source. Insensitive.
+  // Lower bound on cosines, for surfaces seen edge-on. Used for reflections, whose highlight would otherwise
+  // have no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a
+  // cylinder's axis and a distant source. Insensitive.
   RSPHERE_TUNED(Highlights, double, kEdgeOn, .05);
 };
 
