@@ -15,12 +15,12 @@ struct CellInTarget {
   bool enters = true;     // whether the direction enters the mean
 };
 
-// The solid angles (sr) with which the directions enter the mean, in the same order; 0 for those that do not.
-// The cells are scaled in two steps:
+// The solid angle (sr) of each direction in the mean, in the order of `cells`; 0 for directions that do not
+// enter the mean. The cells are scaled in two steps:
 // - In each fitted target, cells are scaled so that they add up to its solid angle. This removes the error
 //   due to the random number of directions inside the target, and to cells that its edge divides.
 // - All cells that enter the mean are scaled to add up to `total` (sr). Only cells outside the fitted targets
-//   change, unless these are fewer than tuning::Targets::kFewestFitted.
+//   change, unless there are fewer than tuning::Targets::kFewestFitted of them.
 std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total);
 
 }  // namespace rsphere

@@ -61,7 +61,7 @@ TypicalView measureTypicalView(const Scene& scene, const SeenSources& sources,
   return result;
 }
 
-// Standard deviation of the brightness on objects with the same modifier. Rays start just in front of points
+// Standard deviation of the brightness on objects that share a modifier. Rays start just in front of points
 // of an object and hit it from evenly distributed directions, because it may be seen from anywhere.
 double measureDeviation(const Scene& scene, std::span<const SpecialObject> objects, size_t rays,
                         const SeenSources& sources, const PathRequest& request, PathTracer& tracer) {
@@ -97,9 +97,9 @@ std::vector<Box3d> boxesOf(const Scene& scene, std::span<const SpecialObject> ob
   return boxes;
 }
 
-// A region of points shares its measurements. The region around a point is as wide as possible while at most
-// this number of times as many objects can be seen from it as from the point. With 1, 4 and 16, four means in
-// a tower take the same time within noise; more points than these would share fewer measurements with 1.
+// Points in one region share measurements. The region is the widest one around a point from which at most
+// this many times as many objects can be seen as from the point. With 1, 4 and 16, four means in a tower take
+// equal times within noise; with 1, more than four points would share fewer measurements.
 constexpr size_t kWider = 2;
 
 }  // namespace
@@ -168,7 +168,8 @@ double Contrasts::deviationOn(size_t object, const Region& region) const {
   return alike.deviation;
 }
 
-// The light vertices of the place in the middle of a region's objects; of all places if it sees all objects.
+// The light vertices of the place in the middle of the region's objects; the vertices common to all places if
+// the region sees all objects.
 std::shared_ptr<const VertexLight> Contrasts::lightFor(const Region& region) const {
   if (!tracing_.pools) return nullptr;
   if (region.objects.size() == objects_.size()) return tracing_.pools->ofAll();

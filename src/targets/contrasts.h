@@ -1,6 +1,6 @@
 #pragma once
-// Measures how much radiance varies on special objects, compared with the rest of the view. The rays of these
-// measurements enter no estimate, so that estimates at points stay unbiased.
+// Measures how much radiance varies on special objects, compared with the rest of the view. No estimate uses
+// the rays of these measurements, so that estimates at points stay unbiased.
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,10 +14,10 @@
 
 namespace rsphere {
 
-// Shared by all threads. Objects with the same modifier share one measurement, which is made when a point
-// first asks for it. In a building, it is made in each region of points, with the objects that can be seen
-// from there: the others are in other rooms, under other light. The results depend only on the region, the
-// scene and the options.
+// Shared by all threads. Objects that share a modifier share one measurement, which is made when a point
+// first needs it. In a building, there is one for each region of points, with the objects that can be seen
+// from the region: other objects are in other rooms, under other light. The results depend only on the
+// region, the scene and the options.
 class Contrasts {
  public:
   // Nothing is traced if there are no objects and no openings. sources: those that are integrated separately;
@@ -55,9 +55,9 @@ class Contrasts {
   double baseError_ = 1;
 };
 
-// The photopic radiance (W/sr/m2) that points on the scene's surfaces see on average, without sources. It is
-// the reference by which points are judged to be dark. It comes from few directions, so that it is right only
-// within a small factor; 0 if they found no light. It depends only on the scene and the options.
+// The average photopic radiance (W/sr/m2) in view of points on the scene's surfaces, without sources: the
+// reference by which points are called dark. It is estimated from few directions and right only within a
+// small factor; 0 if they find no light. It depends only on the scene and the options.
 double typicalRadiance(const SphereTracing& tracing, const SeenSources& sources);
 
 }  // namespace rsphere

@@ -84,8 +84,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   return parts;
 }
 
-// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It errs on
-// the large side.
+// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It is rather
+// too large than too small.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
   const auto ofBall = [&] {
     const double sine = std::min(1., source.radius / distance);
@@ -107,7 +107,7 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
     : prepared_(prepared),
       balls_(ballsAmong(prepared.scene(), objects)),
-      // In buildings, this pays for a few balls, too, because the sources that light each are looked up.
+      // In buildings, this pays even for a few balls, because the sources of each ball are looked up.
       hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_),
               prepared.lights().hidden().divides() ? 1 : kFewHidden) {
   const Scene& scene = prepared.scene();
@@ -139,8 +139,9 @@ std::vector<Box3d> Glints::boxesOf(std::span<const Ball> balls) {
   return boxes;
 }
 
-// Whether `at` sees the source at the middle of a part, or on the way from there to its corners and to the
-// middles of its edges, halfway or near the end. Desks and chairs hide much of a source at the floor.
+// Whether `at` sees the source at the middle of a part, or at one of the points halfway and near the end of
+// the lines from the middle to its corners and to the middles of its edges. Desks and chairs hide much of a
+// source at the floor.
 bool Glints::shines(const LightSource& source, std::span<const V3d> corners, const V3d& middle,
                     const V3d& at) const {
   const auto seen = [&](const V3d& place) {
@@ -168,8 +169,8 @@ void Glints::addOf(const Ball& mirror, const Light& light, const V3d& point, dou
   const double distance =
       source.isDistant() ? kFarAway : (source.center - ball.center).length() - ball.radius;
   if (!(distance > 0) || (source.reach > 0 && distance - source.radius > source.reach)) return;
-  // A ball of radius r spreads distant light evenly over the sphere. At a distance d, the image therefore
-  // has (r / 2d)^2 times the solid angle that the source has as seen from the ball.
+  // A ball of radius r spreads distant light evenly over the sphere. At a distance d, the solid angle of the
+  // image is therefore (r / 2d)^2 times that of the source seen from the ball.
   const double reached = ball.radius / nearest, radiance = light.brightness * mirror.reflectance;
   if (!(radiance * radiance * solidAngleFrom(source, ball, distance) * reached * reached / 4 > least)) return;
   const size_t first = found.size();

@@ -1,8 +1,8 @@
 #pragma once
-// The images of light sources in mirroring balls. Most are small and far brighter than their surroundings:
-// the few directions that meet one by chance cause much variance, and directions sent to the ball are spread
-// over all of it. The law of reflection gives the places of the images, so that directions can be aimed at
-// them.
+// Glints: the images of light sources in mirroring balls. Most are small and far brighter than their
+// surroundings. The few directions that hit one by chance cause much variance, and directions sent to the
+// ball are spread over the whole ball. The law of reflection gives the places of the images, so that
+// directions can be aimed at them.
 #include <span>
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace rsphere {
 struct Glint {
   Silhouette region;       // approximate
   double brightness = 0;   // upper bound, W/sr/m2
-  bool continues = false;  // part of the same image as the glint before it
+  bool continues = false;  // part of one image together with the preceding glint
 };
 
 class Glints {
@@ -26,10 +26,11 @@ class Glints {
   // prepared scene.
   Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects);
 
-  // The images visible from a point (world); the parts of one image are successive. Omitted are images whose
-  // solid angle (sr) times squared brightness is estimated to be below `least`, and images that are hidden
-  // according to shadow rays, one from the point and up to 17 to a rectangular part of the source. A point in
-  // or on a ball sees no image in that ball. The result depends only on the arguments.
+  // The images visible from a point (world); the parts of one image are successive. Omits images whose
+  // estimated solid angle (sr) times squared brightness is below `least`, and images that are hidden
+  // according to shadow rays: one from the point to the ball, and up to 17 from the ball to a rectangular
+  // part of the source. A point in or on a ball sees no image in that ball. The result depends only on the
+  // arguments.
   std::vector<Glint> find(const V3d& point, double least) const;
 
  private:

@@ -56,9 +56,9 @@ bool overlap(const Silhouette& a, const Silhouette& b) {
 }
 
 // Chooses the targets to which cells are fitted: they do not overlap, and enough directions are expected in
-// each. Those with most directions are chosen first. The actual number of directions must not decide, because
-// that would bias the mean. Overlapping targets cannot all be fitted: if few directions lie in the part
-// outside the overlap, the cells in the overlap would have to make up for both targets.
+// each. Targets with the most expected directions are chosen first. The actual number of directions must not
+// decide, because that would bias the mean. Overlapping targets cannot both be fitted: if few directions lie
+// outside the overlap, the cells in the overlap would have to represent the solid angles of both targets.
 void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   std::vector<Target*> chosen, large;
   const auto expected = [&](const Target& target) {

@@ -13,17 +13,17 @@
 
 namespace rsphere {
 
-// A region of the sphere of directions that gets extra directions. Examples are the silhouette of a special
-// object (special_objects.h), and that of the image of a light source in a special object.
+// A region of the sphere of directions that gets extra directions. Examples are the silhouettes of a special
+// object (special_objects.h) and of the image of a light source in a special object.
 struct Target {
   Silhouette silhouette;
   double density = 0;      // extra directions per sr of its region
   double expected = 0;     // expected number of extra directions
-  bool continues = false;  // part of the same image as the target before it
+  bool continues = false;  // part of one image together with the preceding target
   // Whether cells are fitted to its solid angle (cells_in_targets.h). Fitted targets do not overlap.
   bool fitted = false;
-  // Whether cells end at its edge, so that the edge adds no variance. This is so if the target is fitted, or
-  // gets more extra directions than base directions.
+  // Whether cells end at its edge, so that the edge adds no variance: true if the target is fitted, or gets
+  // more extra directions than base directions.
   bool hasOwnEdge = false;
 };
 
@@ -37,7 +37,7 @@ class Targets {
   // The targets that contain a direction (unit).
   struct Region {
     double density = 0;   // of their extra directions there, per sr
-    RegionId id = 0;      // identifies the combination of targets with hasOwnEdge; 0: none of these
+    RegionId id = 0;      // identifies the combination of targets with hasOwnEdge; 0: no such target
     uint32_t fitted = 0;  // 1 + the position in all() of the fitted target; 0: none is fitted
   };
   Region regionAt(const V3d& direction) const;
@@ -60,8 +60,8 @@ class TargetChoice {
   // daylight (openings/openings.h) and their images in mirrors, and visible spots of daylight
   // (spots/bright_spots.h). The density on a target is in proportion to the standard deviation of its
   // radiance (Neyman's allocation), relative to the base directions, whose density is assumed to be optimal
-  // elsewhere. If that takes more than `most` extra directions on average, all densities are reduced by the
-  // same factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
+  // elsewhere. If this takes more than `most` extra directions on average, all densities are reduced by one
+  // factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:

@@ -42,7 +42,7 @@ struct Targets {
   // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:
   // chosen by experiment. Fitting biases the mean if the number of directions is correlated with the radiance
   // that they find. With 8 no bias is found: .02 +- .02% (128 base directions). With 4 or 16, the errors in
-  // rooms with a window are the same.
+  // rooms with a window do not change.
   RSPHERE_TUNED(Targets, double, kFewestFitted, 8);
 };
 
