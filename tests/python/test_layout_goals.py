@@ -156,7 +156,7 @@ class Goals(unittest.TestCase):
         """Beside a bright screen, where reflected light and shadows are uneven; other desks differ by more."""
         lines = [GOOD[0], *(f"place panel {x} {y} 2.5" for x, y in ((1.4, 3.2), (3.4, 2.3), (6.9, 1.5)))]
         lines += [f"illuminance desk{i} 400 uniformity .2" for i in (1, 3, 4, 7)]
-        run, _ = self.run_on(lines, ("-c", "16", "-d", "256", "-b", "3"))
+        run, _ = self.run_on(lines, ("-c", "8", "-d", "256", "-b", "3"))
         rows = [line.split() for line in run.stdout.splitlines() if line.startswith("uniformity")]
         planned, found = ([float(row[i]) for row in rows] for i in (3, 4))
         self.assertEqual(len(rows), 4, run.stdout + run.stderr)
@@ -173,7 +173,7 @@ class Goals(unittest.TestCase):
                 stream.write("\n".join(pendant))
             places = [f"place pendant 1.9 {y} {z}" for y in (1.2, 1.8) for z in (2.2, 2.7)]
             run, _ = self.run_on([f"luminaire pendant {file}", *places, "illuminance desk1 230", "illuminance ceiling 20", "most 4"],
-                                 ("-c", "64", "-d", "256", "-b", "1"))
+                                 ("-c", "32", "-d", "256", "-b", "1"))
         rows = [line.split() for line in run.stdout.splitlines() if line.startswith("illuminance")]
         self.assertEqual(len(rows), 2, run.stdout + run.stderr)
         for row in rows:
@@ -192,7 +192,7 @@ class Goals(unittest.TestCase):
     def test_nearly_met_is_not_missed(self):
         """A goal within the tolerance of the check was called met and impossible at once."""
         lines = ["maintenance .8", GOOD[0], "grid panel ceiling spacing 1.2 .9 margin .45", "most 4", "illuminance desk* 500 spacing .4"]
-        run, _ = self.run_on(lines, ("-c", "16", "-d", "512"))
+        run, _ = self.run_on(lines, ("-c", "16", "-d", "256"))
         self.assertRegex(run.stdout, r"(?m)^illuminance +desk4 .* yes$", "the only desk that is nearly lit")
         missed = re.findall(r"^Cannot be met: illuminance (desk[0-9])", run.stdout, re.MULTILINE)
         self.assertEqual(missed, [f"desk{i}" for i in (1, 2, 3, 5, 6, 7, 8)], run.stdout)
