@@ -1,5 +1,6 @@
 #pragma once
-// Places that much light comes from, at which rays are aimed. find_aims.h finds them.
+// Places from which much light comes, and at which rays are aimed (importance sampling). find_aims.h finds
+// them.
 #include <memory>
 
 #include "openings/opening_images.h"
@@ -17,7 +18,7 @@ struct Aims {
   const OpeningImages* images = nullptr;
 };
 
-// Owns the places of Aims. Null: they were not looked for, or none were found.
+// Owns the places of Aims. Null: not searched for, or none was found.
 struct FoundAims {
   std::unique_ptr<const Openings> openings;
   std::unique_ptr<const BrightSpots> spots;
@@ -27,7 +28,7 @@ struct FoundAims {
   operator Aims() const { return {openings.get(), spots.get(), highlights.get(), images.get()}; }
 };
 
-// For each kind of place, the aims of `more`, or those of `some` if `more` has none.
+// For each kind of place, the aims of `more`; where `more` has none, those of `some`.
 inline Aims joined(const Aims& some, const Aims& more) {
   return {more.openings ? more.openings : some.openings, more.spots ? more.spots : some.spots,
           more.highlights ? more.highlights : some.highlights, more.images ? more.images : some.images};

@@ -11,8 +11,8 @@ namespace {
 // A fingerprint of everything that determines gathered light, except the scene; includes the program's
 // version.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
-  // Names all members, so that adding an option makes this fail to compile. Add the new option below if it
-  // changes gathered light. Not used: `sampling`, since spectral runs are not stored; -aw and, where sites
+  // Names all members, so that this fails to compile when an option is added. Add the new option below if it
+  // changes gathered light. Not used: `sampling`, because spectral runs are not stored; -aw and, where sites
   // are gathered, -Sh, which have no effect; -af and -Sm, which only select where and how much is stored.
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, specularSampling,
@@ -23,7 +23,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{8});  // increase this if gathering changes while kVersion stays the same
+  print.add(uint64_t{8});  // increase this if gathering changes without a new kVersion
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
@@ -53,7 +53,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 
 FieldOptions fieldOptions(const RayOptions& o) {
   FieldOptions field;
-  // Names all members, so that adding one makes this fail to compile.
+  // Names all members, so that this fails to compile when one is added.
   auto& [bounces, accuracy, resolution, rays, coarserLinks, patchesAtFirst, ambientValue, spectral, rotation,
          memory] = field;
   bounces = o.ambientBounces;

@@ -22,15 +22,16 @@ constexpr double kWideJitter = .5;
 // Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
-// Up to this number of sources, a glimpse samples them all. With 32, sensors in a tower with stairwells start
-// in 3.4 instead of .9 s; with 512, in one without, in 1.0 instead of .6 s.
+// Up to this number of sources, a glimpse samples all of them. With 32, sensors in a tower with stairwells
+// start in 3.4 instead of .9 s; with 512, sensors in a tower without stairwells in 1.0 instead of .6 s.
 constexpr size_t kFewOfGlimpse = 128;
-// Of many sources, up to the square root of their number times this. Where a stairwell of 160 storeys shows
-// a lamp of each, sensors start in 3.5 instead of 130 s; with 8, in 2.2 s, but without stairwells in 1.8
-// instead of 1.0 to 1.3 s.
+// Of more sources, a glimpse samples up to this constant times the square root of their number. Where a
+// stairwell of 160 storeys shows a lamp of each storey, sensors start in 3.5 s instead of 130 s without this
+// rule; with 8, in 2.2 s, but without stairwells in 1.8 instead of 1.0 to 1.3 s.
 constexpr size_t kManyOfGlimpse = 5;
 
-// Kinds of sources. The visibility of each is estimated separately, because their causes of occlusion differ.
+// Kinds of sources. The visibility of each kind is estimated separately, because their causes of occlusion
+// differ.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 
@@ -91,7 +92,8 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 
 // Sets `value` to the radiance of a source sample that arrives at the receiver; false if none arrives.
 // to.value: the radiance without occlusion. If the shadow ray has to be followed through surfaces that may
-// transmit light, samples of a lobe do not estimate it, so that their part is added back to to.coefficient.
+// transmit light, samples of a lobe do not estimate this light, so that their part is added back to
+// to.coefficient.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -113,7 +115,7 @@ bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   if (follow && !scratch_.ofLobe.empty())
     to.coefficient += scratch_.ofLobe[static_cast<size_t>(&to - scratch_.contributions.data())];
   if (follow || shown == ShownShadows::all)
-    value = valueFromSource(at, to);  // even if blocked when all shadow rays are shown to the observer
+    value = valueFromSource(at, to);  // even if blocked, when the observer sees all shadow rays
   if (shadow == Shadow::blocked || (!follow && isLeftOut(at, sample))) return false;
   if (!follow) value = to.value;
   if (!follow && shown == ShownShadows::thatArrive) show(at, to);
@@ -185,8 +187,8 @@ void DirectLight::rankByBrightness(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) scratch_.order[before[i]] = i;
 }
 
-// The sources that may light a place. Few of the places that glimpses see are seen again: to sample a few
-// hidden sources there takes less time than to divide regions until none is left (HiddenBoxes).
+// The sources that may light a place. Glimpses seldom see a place twice. Sampling a few hidden sources there
+// takes less time than dividing regions until no hidden source is left (HiddenBoxes).
 std::span<const uint32_t> DirectLight::notHiddenFrom(const V3d& point, const V3d& front) const {
   const HiddenBoxes& hidden = t_.lights().hidden();
   if (!state_.glimpses) return hidden.notHiddenFrom(point, front);
@@ -209,10 +211,10 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
                            splitsBalls, !isRayMode(settings_.mode)};
   // If paths from both ends estimate all direct light of known sources, no shadow rays are sent to them.
-  // Otherwise shadow rays still estimate their light that passes unknown surfaces.
+  // Otherwise shadow rays estimate the part of their light that passes unknown surfaces.
   const PlainSurfaces* const leftOut =
       at.leftToBothEnds && !at.leftToBothEnds->coverage().passUnknown ? at.leftToBothEnds : nullptr;
-  // If the observer wants to see all shadow rays, those to hidden sources are traced too.
+  // If the observer sees all shadow rays, those to hidden sources are traced, too.
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
                                                 : notHiddenFrom(at.point, front);
@@ -296,10 +298,10 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
     Contribution& c = ranked(tested);
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // After an indirect bounce, the rest is estimated without bias: noise averages out there, and bias would
-  // not.
+  // After an indirect bounce, the remaining contributions are estimated without bias: noise averages out
+  // there, but bias would not.
   if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
-  // Sources too weak to be tested are assumed to be visible as often as the tested sources of the same kind.
+  // Sources too weak to be tested are assumed to be visible as often as the tested sources of their kind.
   // Kinds are distinguished because the visibility of lamps does not predict that of the sun, and vice versa.
   // Therefore the brightest source of each kind is always tested.
   for (; tested < count; ++tested) {
@@ -313,7 +315,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
 }
 
 // Estimates the sum over all sources from -Ss sources, sampled in proportion to their weights. If there are
-// not more than that, each is sampled once.
+// at most -Ss sources, each is sampled once.
 void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
                               Radiance& value) {
   const std::span<const uint32_t> sources = t_.lights().hidden().notHiddenFrom(at.point, front);

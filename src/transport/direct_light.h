@@ -1,8 +1,9 @@
 #pragma once
 // Next-event estimation: direct light from the light sources, with its shadows.
 //
-// All sources are sampled, and the brightest contributions are tested for shadows first. Those too weak to
-// matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is sampled.
+// All sources are sampled, and the brightest contributions are tested for shadows first. Contributions too
+// weak to matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is
+// sampled.
 #include <vector>
 
 #include "base/function_ref.h"
@@ -14,7 +15,7 @@
 namespace rsphere {
 
 // The fraction of a source's radiance that a surface scatters back along a ray. toSource: direction to the
-// source (unit); solidAngle: that of the source sample (sr).
+// source (unit); solidAngle: of the source sample (sr).
 using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double solidAngle)>;
 
 // The part of a DirectCoefficient that is estimated by samples of the lobe instead of shadow rays
@@ -40,14 +41,14 @@ class DirectLight : PathPart {
     const PlainSurfaces* leftToBothEnds = nullptr;
   };
 
-  // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter that radiance already is, the
+  // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter the radiance already is, the
   // fewer sources are tested for shadows. front: normal of a surface that transmits no light, behind which
   // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the
   // light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 
-  // The same, estimated from -Ss randomly selected sources.
+  // add(), estimated from -Ss randomly selected sources.
   void addOfChosen(Receiver at, DirectCoefficient coefficientOf, const V3d& front, Radiance& value);
 
   // Adds the light of one source that is scattered at the end of a ray (W/sr/m2).
@@ -85,7 +86,7 @@ class DirectLight : PathPart {
   }
 
   // Memory that all calls reuse, so that none is allocated. Calls do not nest, because shadow rays never
-  // compute direct light. Elements beyond those of the current call are left over from earlier calls.
+  // compute direct light. Elements after those of the current call are left over from earlier calls.
   struct Scratch {
     std::vector<SourceSample> samples;
     std::vector<Contribution> contributions;

@@ -64,7 +64,7 @@ PatchLinks TracedFieldRays::link(std::span<const PatchSite> sites, int rays, uin
   PatchLinks links;
   path.state.links = &links;
   path.state.descendants = descendantsOfPatch(rays, depth_);
-  // One set of directions for all sites: each has some of them, as far apart as possible.
+  // One set of directions for all sites: each site uses some of the directions, as far apart as possible.
   DirectionSet set(rays, path.state.random);
   set.step = std::min(static_cast<int>(sites.size()), rays);
   for (; set.first < set.step; ++set.first) {
@@ -120,7 +120,7 @@ bool TracedFieldRays::sees(const V3d& from, const V3d& to) {
 }
 
 bool TracedFieldRays::smallObjectNear(const GatherSite& site, double side, double lift) {
-  // Reduces the limit, so that rounding does not make an object that is as wide as the cell seem smaller.
+  // Reduces the limit, so that an object as wide as the cell does not count as smaller because of rounding.
   constexpr double kRounding = 1e-6;
   return t_.tracer().anySmallNear({site.point, site.normal, side, side * (1 - kRounding), 3 * lift});
 }

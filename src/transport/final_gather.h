@@ -9,10 +9,10 @@ namespace rsphere {
 // The number of rays of a record of the irradiance cache. byLamps: isLitByLamps()
 int raysOfRecord(const RayOptions& options, bool byLamps);
 
-// Traces these rays on behalf of a path.
+// Implements FieldRays by a path.
 class TracedFieldRays final : public FieldRays {
  public:
-  // Keeps references. depth: that of the ray that needs the light; it only matters for the limit on nesting.
+  // Keeps references. depth: of the ray that needs the light; it only matters for the limit on nesting.
   TracedFieldRays(const PreparedScene& prepared, RayFollower& path, int depth)
       : t_(prepared), path_(path), depth_(depth) {}
 

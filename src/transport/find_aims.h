@@ -1,6 +1,6 @@
 #pragma once
 // Finds the places at which directions are aimed (aims.h): for gathers, or for the directions of points.
-// Users leave out those whose light paths from both ends bring (SphereEstimator, IndirectLight).
+// Users leave out aims whose light paths from both ends bring (SphereEstimator, IndirectLight).
 #include "rays/prepared_scene.h"
 #include "transport/aims.h"
 

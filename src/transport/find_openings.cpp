@@ -130,8 +130,8 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
   return doors;
 }
 
-// Whether a hole differs from all openings found so far. A thick wall has two faces, each with a hole for the
-// same opening.
+// Whether a hole differs from all openings found so far. A thick wall has two faces, each with a hole for one
+// opening.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
   return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
     return std::abs(o.normal.dot(hole.normal)) > tuning::Openings::kParallel &&
@@ -176,8 +176,8 @@ void merge(std::vector<Opening>& panes) {
 }
 
 // The area of a wall as wide and high as the scene (square world units), with which areas of openings are
-// compared. The area of the ground would not do: on a ground of 1 km, the windows of a room would be too
-// small. If the scene is flat, the height is a thousandth of the width.
+// compared. Compared with the area of a ground of 1 km, the windows of a room would be too small. If the
+// scene is flat, the height is a thousandth of the width.
 double wallOf(const V3d& size) {
   const auto [least, most] = std::minmax({size.x, size.y, size.z});
   return most * std::max(least, 1e-3 * most);

@@ -12,12 +12,12 @@
 namespace rsphere {
 namespace {
 
-// Caps on the fractions of aimed directions. They limit the weight of the other directions to twice their
-// weight without aiming (with highlights, a third more than that), and thus the growth of their variance.
+// Caps on the fractions of aimed directions. They limit the weight of unaimed directions to twice their
+// weight without aiming (with highlights, a third more than twice), and thus the growth of their variance.
 constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
 
-// The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, the two estimates
-// are made near them, where a room is brighter than elsewhere, and the smaller one is used.
+// The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, two estimates are
+// made near them, where a room is brighter than elsewhere, and the smaller one is used.
 double usualRadiance(const Aims& aims) {
   if (!aims.openings && !aims.images) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
   const double inside = aims.openings ? aims.openings->inside() : aims.images->inside();
@@ -43,12 +43,12 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   const double all = aimedAt + usualRadiance(aims);
   if (aims.highlights) {
     aims.highlights->aim(point, normal, all, rays, highlights_.aim);
-    // all can be 0 if that was the estimate for a room that little light enters.
+    // `all` can be 0, if that was the estimate for a room that little light enters.
     if (highlights_.aim.mean > 0) highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
   }
   if (!(aimedAt > 0)) return;
-  // Unaimed directions hit openings too, in proportion to the form factor. If they alone reach the cap on the
-  // fraction of directions towards openings, none is aimed.
+  // Unaimed directions hit openings, too, in proportion to the form factor. If these alone reach the cap on
+  // the fraction of directions towards openings, none is aimed.
   const double seen = openings_.aim.seen + images_.aim.seen;
   const double unseen = std::max(0., 1 - seen / kMostToOpenings);
   const double mean = openings_.aim.mean + images_.aim.mean;
@@ -72,8 +72,8 @@ void GatherDirections::draw(const DirectionSet& set, Each each) const {
   const auto& [count, shifts, first, step] = set;
   const auto [shift1, shift2, shift3] = shifts;
   for (int i = first; i < count; i += step) {
-    // Systematic sampling: directions of the same kind are consecutive, and the number of each kind differs
-    // from its expected value by less than 1. Within each kind, u is evenly spaced between 0 and 1.
+    // Systematic sampling: the directions of a kind are consecutive, and the number of each kind differs from
+    // its expected value by less than 1. Within each kind, u is evenly spaced between 0 and 1.
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;

@@ -16,7 +16,7 @@
 
 namespace rsphere {
 
-// A lattice of directions with a random shift, or every `step`-th of them from `first` on.
+// A lattice of directions with a random shift, or every `step`-th direction of it from `first` on.
 struct DirectionSet {
   int count;  // of the whole set
   std::array<double, 3> shifts;
@@ -57,9 +57,9 @@ class GatherDirections {
 using GatherRay = FunctionRef<void(const NextRay& next)>;
 
 // Makes a ray for each direction, starting from a point at the end of the root ray. coefficient: factor on
-// the mean radiance over the hemisphere in the result. weight: weight of one ray relative to the root, which
-// is compared with the weight limit (-lw). It is the same for aimed and other directions, although the
-// coefficients of aimed ones are smaller.
+// the mean radiance over the hemisphere in the result. weight: of one ray relative to the root, which is
+// compared with the weight limit (-lw). Aimed and other directions have equal weights, although the
+// coefficients of aimed directions are smaller.
 void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& directions, PathState& state,
                         const RayEnd& root, const V3d& point, RayKind kind, const DirectionSet& set,
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each);

@@ -17,8 +17,7 @@ namespace rsphere {
 namespace {
 
 // Whether interpolated light is valid at a side. Interpolated light was gathered in the complete scene,
-// without antimatter, and in the global medium. For very tilted normals, its moments give the light less
-// accurately.
+// without antimatter, and in the global medium. For very tilted normals, its moments are less accurate.
 bool isOrdinary(const RayEnd& end, const DiffuseSide& side, const Medium& medium) {
   const RaySpace& space = end.space();
   return !space.mist && !end.context.clips && !end.clipsBeyond && !space.scatterers.count &&
@@ -54,7 +53,7 @@ class GatherNoise {
   void add(int ray, double part) { bins_[ray % kBins] += part; }
 
   // The standard error of the whole gather relative to its result. An overestimate where light is smooth,
-  // since the rays of a bin are less evenly distributed than those of the half.
+  // because the rays of a bin are less evenly distributed than the rays of the half.
   double ofWhole() const {
     double sum = 0, squares = 0;
     for (const double bin : bins_) {
@@ -91,8 +90,8 @@ struct Gather {
   const RayEnd& end;
   const DiffuseSide& side;
 
-  // Calls found() for each ray with its part of the light. The rays bring a share of the light, and each has
-  // the weight that it has among `weighedAs`.
+  // Calls found() for each ray with its part of the light. The rays estimate the fraction `share` of the
+  // light; each has the weight of one ray among `weighedAs`.
   void send(int rays, int weighedAs, double share, FunctionRef<void(const Radiance& part)> found) const {
     const GatherDirections directions(aims, side.point, side.normal, side.trueNormal, rays);
     const Coefficient weight =
@@ -106,9 +105,9 @@ struct Gather {
   }
 };
 
-// Whether a gather may send more rays than -ad and -as ask for. It may at imagined points (-I), whose noise
-// is not averaged with that of other gathers, unless -as 0 asks for no supersampling. Behind blinds and below
-// shafts this noise is most of the error, while most of the time goes into patches, which all points share.
+// Whether a gather may send more rays than -ad plus -as. It may at sensors (-I), whose noise is not averaged
+// with the noise of other gathers, unless -as 0 disables supersampling. Behind blinds and below shafts this
+// noise is most of the error, while most of the time goes into patches, which all sensors share.
 bool mayAddRays(const Gather& from, int rays) {
   return from.settings.caches.field && isRayMode(from.settings.mode) && from.end.hit.surface == kNone &&
          from.end.context.ambientLevel == 0 && from.prepared.options().ambientSuperSamples > 0 &&
@@ -121,11 +120,11 @@ struct Half {
   GatherNoise noise;
   Radiance value{};
   int added = 0;     // number of rays that are added
-  double share = 1;  // weight of its first rays in its light; the added ones have the rest
+  double share = 1;  // weight of its first rays in its light; added rays have the remaining weight
 };
 
-// Sends the first rays of each half again, with the same random numbers, to show them to the observer. When
-// they were sent first, their coefficients were not known yet.
+// Repeats the first rays of each half, with their random numbers, to show them to the observer. Their
+// coefficients were not known when they were first sent.
 void showFirstRays(const Gather& from, const std::array<Half, 2>& halves, int ofHalf, int weighedAs) {
   const Random after = from.state.random;
   for (const Half& half : halves) {
@@ -136,9 +135,10 @@ void showFirstRays(const Gather& from, const std::array<Half, 2>& halves, int of
 }
 
 // Gathers by two independent halves and adds rays where they are noisy. The noise of each half decides how
-// many rays are added to the other one, so that both remain unbiased: a half that happens to miss what is
-// bright seems less noisy than it is, and would get too few rays by its own noise. For the same reason each
-// half is stratified by itself: of two halves that share their strata, one hits what the other misses.
+// many rays are added to the other half, so that both remain unbiased: a half that happens to miss bright
+// places seems less noisy than it is, and would get too few rays by its own noise. Therefore each half is
+// stratified separately, too: of two halves that share their strata, one hits the places that the other
+// misses.
 void gatherAccurately(const Gather& from, int rays, Radiance& value) {
   const RayOptions& o = from.prepared.options();
   const int ofHalf = rays / 2;
@@ -201,7 +201,7 @@ void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& va
 
 // Adds light from the irradiance cache. Returns false, and adds nothing, if the cache cannot be used here.
 bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
-  // Illuminance at a point without a surface (-I) is not interpolated, because no other ray needs it.
+  // Illuminance at a sensor (-I) is not interpolated, because no other ray needs it.
   if (end.hit.surface == kNone || !isOrdinary(end, side, t_.options().medium())) return false;
   TracedFieldRays rays(t_, follower_, end.context.depth);
   GatheredLight light;
@@ -210,7 +210,7 @@ bool IndirectLight::addInterpolated(const RayEnd& end, const DiffuseSide& side, 
   return true;
 }
 
-// Adds light from the coarse solution instead.
+// Adds light from the coarse solution. Returns false, and adds nothing, if it has no patch here.
 bool IndirectLight::addFromPatch(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const PatchPlace place = patchAt(end, side);
   if (!place.patch) return false;
@@ -232,9 +232,9 @@ void IndirectLight::endPath() {
   if (settings_.caches.field) settings_.caches.field->leave(reader_);
 }
 
-// The number of directions of a gather. Without interpolation it is the same as in RADIANCE at every bounce:
-// a square number that is proportional to the weight. With interpolation, a path continues with one ray at
-// later bounces.
+// The number of directions of a gather. Without interpolation it is RADIANCE's number at every bounce: a
+// square number, proportional to the weight. With interpolation, a path continues with one ray at later
+// bounces.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
@@ -242,7 +242,7 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
                weighted = asked * std::min(ray.weight, 1.);
   if (settings_.caches.field) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
   // With more directions than this, each would be below the weight limit, and most would end. The factor .8
-  // is also used by RADIANCE.
+  // is RADIANCE's.
   const double most =
       asked * .8 * maxChannel(coefficient) * ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20);
   const int side = std::max(1, static_cast<int>(std::sqrt(std::min(weighted, most)) + .5));
@@ -256,8 +256,8 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
 int IndirectLight::firstRays() const {
   // The number of rays is at most 2^kMostDoublings = 8 times as large. This was measured in a classroom, with
   // the sky divided into 2306 bins (-ab 5). With 8 times as many rays, the product of variance and time is
-  // .13 of that without more rays; with 4 times it is .19. With 16 times it is also .13, but the run takes
-  // longer than in the original RADIANCE.
+  // .13 times that without more rays; with 4 times as many, .19. With 16 times as many, it is .13, too, but
+  // the run takes longer than in the original RADIANCE.
   constexpr int kMostDoublings = 3;
   const RayOptions& o = t_.options();
   const bool daylit = settings_.aims.openings && t_.lights().all().empty();
@@ -278,7 +278,7 @@ void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance&
     if (!looksOnly_) send(rays, rays, times);
     return;
   }
-  // Sent separately, so that the rays that continue are as well stratified as without the others.
+  // Sent separately, so that the rays that continue are as well stratified as without the additional rays.
   looksOnly_ = false;
   send(rays, rays, 1. / times);
   looksOnly_ = true;

@@ -3,9 +3,9 @@
 //
 // With -aa above 0, the light at the first diffuse surface of a path is interpolated (irradiance_field.h),
 // and the light at later surfaces comes from the coarse solution (coarse_solution.h). In sphere mode, the
-// coarse solution is used at the first surface too. At sensors (-I), light is not interpolated but gathered,
+// coarse solution is used at the first surface, too. At sensors (-I), light is not interpolated but gathered,
 // with more rays where the gather is noisy. With -aa 0, light is gathered from -ad + -as stratified
-// directions at the first diffuse surface, and from the same number as in RADIANCE at later ones.
+// directions at the first diffuse surface, and from RADIANCE's number of directions at later ones.
 #include "field/irradiance_field.h"
 #include "rays/prepared_scene.h"
 #include "rays/ray_follower.h"
@@ -23,7 +23,7 @@ struct DiffuseSide {
 
 class IndirectLight : PathPart {
  public:
-  // The rays of gathers are followed, and those that the caches request.
+  // Follows the rays of gathers, and the rays that the caches request.
   explicit IndirectLight(const PathPart& path) : PathPart(path) {}
 
   // Adds the indirect light of a side to the radiance of a ray (W/sr/m2); beyond -ab bounces, adds the

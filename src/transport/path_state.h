@@ -25,11 +25,11 @@ enum class FirstBounce : uint8_t {
 struct TracingMode {
   FirstBounce firstBounce = FirstBounce::interpolated;
   // Whether the light of sources in rough highlights is estimated partly by shadow rays and partly by samples
-  // of the lobes (shared_highlights.h). The mean stays the same.
+  // of the lobes (shared_highlights.h). The mean does not change.
   bool sharesHighlights = false;
   // Whether the number of descendants of a primary ray is limited, to bound the time for each record. Inside
-  // a closed metal cylinder, for example, paths branch at each surface, into thousands of rays. The mean
-  // stays the same.
+  // a closed metal cylinder, for example, paths branch at each surface, into thousands of rays. The mean does
+  // not change.
   bool boundsWork = false;
 };
 
@@ -45,12 +45,12 @@ struct PathSettings {
 
 // Counts the descendants of one ray: of a gather for interpolation, or of a primary ray in sphere mode.
 struct Descendants {
-  double most = 0;       // above this number, weak ones are subject to Russian roulette; 0: no limit
+  double most = 0;       // beyond this number, weak rays are subject to Russian roulette; 0: no limit
   double weight = 0;     // of the ray from which they descend
   int depth = 0;         // of that ray
   int ambientLevel = 0;  // of that ray
   int rays = 0;          // followed so far, without shadow rays
-  int patches = 0;       // used so far by that ray, or by the latest ray of a patch
+  int patches = 0;       // used so far by this ray, or by the latest ray of a patch
 };
 
 // Each path and each gather begins with a new state, so that no answer can depend on an earlier path.

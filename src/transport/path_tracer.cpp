@@ -50,8 +50,9 @@ void checkDepth(const PathContext& ray) {
         rad::Status::system);
 }
 
-// Whether a finished ray has hit a light source whose light no other ray brings as well. This excludes
-// illums, since a ray sees what they replace, and shadow rays that hit anything other than their source.
+// Whether a finished ray has hit a light source whose light no other ray brings. This excludes illums,
+// because a ray sees the objects that they replace, and shadow rays that hit anything other than their
+// source.
 bool bringsLight(const PreparedScene& prepared, const RayEnd& end) {
   if (end.hit.surface == kNone) return false;
   const LightId aimedAt = end.ray.aimedAt;
@@ -89,7 +90,7 @@ class PathTracer::Path final : public RayFollower {
     return primary;
   }
 
-  // What a primary ray starts on. In ray mode, as in rtrace, it passes surfaces at its origin.
+  // The surface on which a primary ray starts. In ray mode, as in rtrace, it passes surfaces at its origin.
   SurfaceId begins() const { return isRayMode(settings_.mode) ? SurfaceId() : kInSpace; }
 
   Radiance glimpse(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,

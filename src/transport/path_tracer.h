@@ -34,9 +34,9 @@ class PathTracer {
   TracedRay trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
                   const PathRequest& request = {});
 
-  // Radiance along a primary ray to a light source, equal to that of trace(). It takes only a shadow ray if
-  // no surface in between may transmit light. TracedRay::shown indicates whether the source is visible along
-  // the ray.
+  // Radiance along a primary ray to a light source, equal to the result of trace(). It takes only a shadow
+  // ray if no surface in between may transmit light. TracedRay::shown indicates whether the source is visible
+  // along the ray.
   TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                           const PathRequest& request = {});
 
@@ -57,7 +57,7 @@ class PathTracer {
   std::unique_ptr<Path> path_;
 };
 
-// Traces paths from one point, all with the same request.
+// Traces paths from one point that share one request.
 class PathsFrom {
  public:
   // point: world. Keeps a reference to the tracer.

@@ -8,7 +8,7 @@ namespace rsphere {
 namespace {
 
 // The weight below which descendants are subject to Russian roulette. It grows faster than the number of
-// descendants, which bounds that number even if children have a larger weight than their parents. The
+// descendants, which is therefore bounded even if children have larger weights than their parents. The
 // ancestors of the new ray are not counted, so that a path without branches continues.
 double leastWeight(const Descendants& descendants, const PathContext& child) {
   const int others = descendants.rays - (child.depth - descendants.depth);
@@ -60,7 +60,7 @@ bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state)
   ray.contribution *= next.coefficient;
   ray.weight = parent.context.weight * std::min(1., maxChannel(next.coefficient));
   const double depth = minChannel(parent.medium().extinction) * parent.hit.length;
-  // RADIANCE has the same limit: a thinner medium does not reduce the weight.
+  // As in RADIANCE, a thinner medium does not reduce the weight.
   if (depth > .1) ray.weight *= std::exp(-depth);
   if (!(ray.weight > 0)) return false;
   if (ray.kinds & kShadow) return true;

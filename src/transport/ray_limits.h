@@ -11,9 +11,9 @@ namespace rsphere {
 
 // Whether a path continues along a new ray at the end of its parent. Paths end after -lr reflections. Below
 // the weight limit (-lw), they end always if -lr is positive, and by Russian roulette otherwise. Roulette
-// also ends paths whose root has too many descendants; a ray that continues is added to these
-// (state.descendants). After surviving roulette, NextRay::coefficient is increased, so that the result stays
-// unbiased. Throws rad::Error if roulette has no weight limit to compare with (-lw 0).
+// also ends paths whose root has too many descendants; a ray that continues is added to state.descendants.
+// After surviving roulette, NextRay::coefficient is increased, so that the result stays unbiased. Throws
+// rad::Error if roulette has no weight limit to compare with (-lw 0).
 bool goesOnAlong(NextRay& next, const PreparedScene& prepared, PathState& state);
 
 // Russian roulette: whether the path continues along a ray. If so, the ray's weight becomes at least `least`,
@@ -29,8 +29,8 @@ inline bool survives(Random& random, double least, NextRay& next) {
 }
 
 // Whether the indirect light at the hit of a ray is taken from a patch of the coarse solution. Each ray of a
-// gather may use some patches. For further ones, Russian roulette decides with a probability proportional to
-// their largest possible contribution. coefficient: factor on the mean radiance over the hemisphere in the
+// gather may use some patches. For further patches, Russian roulette decides with a probability proportional
+// to their largest possible contribution. coefficient: factor on the mean radiance over the hemisphere in the
 // ray's radiance; increased after surviving roulette.
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
@@ -64,7 +64,7 @@ inline void countDescendants(const PathSettings& settings, PathState& state, con
 }
 
 // Whether -lr allows further reflections at the end of a ray. Russian roulette is ignored, because surviving
-// rays compensate for those that it ends.
+// rays compensate for the others.
 inline bool goesOn(const PreparedScene& prepared, const PathContext& ray) {
   const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);

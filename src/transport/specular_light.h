@@ -19,9 +19,9 @@ class SpecularLight : PathPart {
  public:
   explicit SpecularLight(const PathPart& path) : PathPart(path) {}
 
-  // Each function adds light to the result of a ray (W/sr/m2): that of sharp paths from the ray's end; that
-  // of rays redirected by a prism; and, for a shadow ray that has hit the relay of a virtual source, that of
-  // the source shown by the relay.
+  // Each function adds light to the result of a ray (W/sr/m2): the light of sharp paths from the ray's end;
+  // of rays redirected by a prism; and, for a shadow ray that has hit the relay of a virtual source, of the
+  // source that the relay shows.
   void add(const RayEnd& end, const SharpPaths& sharp, RayResult& result);
   void add(const RayEnd& end, const ReflectsSharply& response, RayResult& result) {
     add(end, response.scattering.sharp, result);

@@ -25,7 +25,7 @@ MaterialOptions materialOptions(const PreparedScene& prepared) {
 constexpr double kStraight = 1e-9;
 
 // Whether a ray continues the primary ray in a straight line, except for a reflection by PathContext::mirror,
-// and has passed no surface that blocks shadow rays. Shadow rays can then reach the source in the same way.
+// and has passed no surface that blocks shadow rays. Shadow rays can then reach the source by this path.
 bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDirection) {
   const SurfaceId mirror = end.context.mirror;
   for (const RayEnd* before = end.context.parent; before; before = before->context.parent) {
@@ -42,7 +42,7 @@ bool isStraight(const PreparedScene& t, const RayEnd& end, const V3d& primaryDir
 }
 
 // Records a light source that a ray shows (TracedRay::shown) in the state of its path, if the ray satisfies
-// the conditions for that. REQUIRES that the ray hit a surface that emits light towards it.
+// the conditions of TracedRay::shown. REQUIRES that the ray hit a surface that emits light towards it.
 void noteShown(const PreparedScene& t, const RayEnd& end, PathState& state) {
   const SurfaceId surface = end.hit.surface, mirror = end.context.mirror;
   if (t.lights().of(surface) == kNone) return;
@@ -100,8 +100,9 @@ class SurfaceShading::Seen final : public MaterialHit {
 bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
-  // A shadow ray may leave through a portal and stay known, because light paths carry the sunlight that
-  // passes only panes on its way to the portal. Other rays end at the portal or begin anew there.
+  // A shadow ray may leave through a portal and remain known, because light paths carry sunlight that passes
+  // only panes on its way to the portal. Other rays end at the portal, and new paths find the light beyond
+  // it.
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
       state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
       ((end.context.kinds & kShadow) || !leavesThroughPortal(end)))
@@ -273,8 +274,8 @@ bool SurfaceShading::leavesThroughPortal(const RayEnd& end) const {
                                                                  end.hit.length);
 }
 
-// Whether the light of a ray is left to portals: it leaves through one after a diffuse surface, but not by a
-// reflection through which light vertices are not joined. DirectLight itself leaves out shadow rays.
+// Whether the light of a ray is left to portals: the ray leaves through a portal after a diffuse surface, but
+// not after a reflection through which light vertices are not connected. DirectLight leaves out shadow rays.
 bool SurfaceShading::leftToPortals(const RayEnd& end) const {
   const PathContext& ray = end.context;
   return ray.ambientLevel > 0 && !(ray.kinds & kShadow) && leavesThroughPortal(end) &&
@@ -302,8 +303,8 @@ SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
   return both;
 }
 
-// Russian roulette: paths from both ends leave little light to paths from the eye, so that only some are
-// followed.
+// Russian roulette: paths from both ends leave little light to paths from the eye, so that only some of these
+// are followed.
 double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
   const VertexLight& light = *state_.request.vertexLight;
   if (!both.indirectHere && light.surfaces().coverage().all) return 0;

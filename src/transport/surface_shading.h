@@ -69,16 +69,16 @@ class SurfaceShading : PathPart {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // Indicates which light is left out of a surface's ordinary shading, because paths from both ends estimate
-  // it (known paths: PlainSurfaces). They do so either at this surface, or at the eye or an earlier surface.
+  // The light that a surface's ordinary shading leaves out, because paths from both ends estimate it (known
+  // paths: PlainSurfaces), either at this surface, or at the eye or an earlier surface.
   struct FromBothEnds {
-    // Direct light, with that of the rough highlight; null: not left out.
+    // Direct light, also in the rough highlight; null: not left out.
     const PlainSurfaces* direct = nullptr;
     const PlainSurfaces* indirect = nullptr;  // indirect light; null: not left out
     Shown directHere = Shown::none;
     bool indirectHere = false;
     double rest =
-        1;  // factor on the light that is left to paths from the eye; 0: those are not followed here
+        1;  // factor on the light that is left to paths from the eye; 0: they are not followed here
   };
   bool leavesThroughPortal(const RayEnd& end) const;
   FromBothEnds fromBothEnds(const RayEnd& end);

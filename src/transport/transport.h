@@ -11,11 +11,11 @@ namespace rsphere {
 // Shared by all threads. Constant after construction, except for the caches. Keeps a reference to the scene.
 class Transport {
  public:
-  // As PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, traces some paths to
-  // find the openings through which daylight enters. Throws the exceptions of PreparedScene.
+  // Parameters: see PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, traces
+  // some paths to find the openings through which daylight enters. Throws the exceptions of PreparedScene.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
-  // Prepares the scene of `other` with other options, without warnings. REQUIRES that -bv is the same.
+  // Prepares the scene of `other` with other options, without warnings. REQUIRES that both have the same -bv.
   Transport(const Transport& other, const RayOptions& options);
 
   const PreparedScene& prepared() const { return prepared_; }

@@ -10,8 +10,8 @@ namespace rsphere::tuning {
 // without interpolation, relative to the chosen value, in four daylit rooms: a narrow and a wide one, each
 // with an overcast sky and with sun.
 struct GatherDirections {
-  // Ratio of the fraction of directions aimed at openings to the estimated fraction of the light from them;
-  // the same for spots. Measured for openings:
+  // Ratio of the fraction of directions aimed at openings, or at spots, to the estimated fraction of light
+  // from them. Measured for openings:
   //   value   variance x time in the four rooms
   //   .5      1.3  .9   1    1
   //   .3      7.8  2.4  1.1  1.2
@@ -47,21 +47,22 @@ struct Interpolation {
   // Number of rays of a record of the irradiance cache times the square of -aa, where shadow rays find all
   // light: at most -ad plus -as, and at least half of these. The error of interpolation, which -aa bounds, is
   // then larger than the noise of the records. Measured: at -aa .15, with 333 instead of 640 rays, pictures
-  // of RADIANCE's cabin and office take a quarter less time for nearly the same errors. In a sunlit
-  // classroom, errors would be a fifth larger (tests/bench/rtrace/runs/2026-11-27-patches.txt).
+  // of RADIANCE's cabin and office take a quarter less time for nearly equal errors. In a sunlit classroom,
+  // errors would be a fifth larger (tests/bench/rtrace/runs/2026-11-27-patches.txt).
   RSPHERE_TUNED(Interpolation, double, kRaysByLamps, 7.5);
   // Number of rays that estimate the distances around a site (root mean square and harmonic mean): derived.
-  // If single distances vary as much as their mean, that is known within 25%, half of the step between the
-  // sides of cells, which are powers of two. Insensitive.
+  // If single distances vary as much as their mean, the mean is known within 25%, half of the step between
+  // the sides of cells, which are powers of two. Insensitive.
   static constexpr int kReachRays = 16;
 };
 
 // Limits on the number of rays into which a ray splits (ray_limits.h).
 struct RayLimits {
-  // If a ray of a gather has more than this number of descendants, further ones of low weight are subject to
-  // Russian roulette. The ancestors of a further descendant are not counted. For a primary ray of sphere
-  // mode, the limit is this number times -ad plus -as. Measured: 99% of the directions in a room with a
-  // chrome column have fewer descendants (-ab 6, -ad 4); those in a closed metal cylinder have up to 1000.
+  // If a ray of a gather has more than this number of descendants, further descendants of low weight are
+  // subject to Russian roulette. The ancestors of a further descendant are not counted. For a primary ray of
+  // sphere mode, the limit is this number times -ad plus -as. Measured: 99% of the directions in a room with
+  // a chrome column have fewer descendants (-ab 6, -ad 4); directions in a closed metal cylinder have up to
+  // 1000.
   //
   // Sharp paths of a gather's ray are subject to Russian roulette if their weight is below the inverse of
   // this; the probability of survival is proportional to their weight. Gathers start with a weight of 1/2, so
@@ -74,22 +75,23 @@ struct RayLimits {
   // reflect one and transmit one. It is used for
   // - the descendants of each ray of a patch of the coarse solution, on average. Measured: without a limit,
   //   most patches between two boxes of rough trans would have 16 to 40 descendants per ray; between boxes of
-  //   rough metal, 7 to 9. With 8, a point in front of the boxes of trans takes twice the time for the same
+  //   rough metal, 7 to 9. With 8, a point in front of the boxes of trans takes twice the time for equal
   //   noise;
   // - the patches that a ray of a gather, or a primary ray of sphere mode, uses regardless of weight.
   static constexpr int kFreely = 2;
-  // Such a ray uses about kFurther more patches, with probabilities proportional to weight. Where surfaces
-  // reflect and transmit in lobes, a ray requests 5 patches in an open-plan office, and 12 between boxes of
-  // rough trans. Most contribute little, and each has rays of its own: without a limit, a point in front of
-  // the boxes takes twice the time. Measured standard deviation of directions between the boxes:
+  // Beyond kFreely patches, a ray of a gather uses about kFurther more, with probabilities proportional to
+  // weight. Where surfaces reflect and transmit in lobes, a ray requests 5 patches in an open-plan office,
+  // and 12 between boxes of rough trans. Most contribute little, and each sends rays: without a limit, a
+  // point in front of the boxes takes twice the time. Measured standard deviation of directions between the
+  // boxes:
   //   kFreely   kFurther
   //   2         8          6%
   //   2         4          37%
   //   1         1          90%
   RSPHERE_TUNED(RayLimits, double, kFurther, 8);
-  // Number of patches that each ray of a patch uses; there are no further ones. It is the least possible
-  // number, because such rays are numerous. With 4, the point in front of the boxes takes twice the time for
-  // the same noise.
+  // Number of patches that each ray of a patch uses, without further ones. It is the smallest possible
+  // number, because rays of patches are numerous. With 4, the point in front of the boxes takes twice the
+  // time for equal noise.
   static constexpr int kAskedByPatch = 1;
 };
 
@@ -97,8 +99,8 @@ struct RayLimits {
 struct SpecularLight {
   // Sharp paths of indirect rays are subject to Russian roulette if their weight, relative to the weight of
   // the arriving ray, is below this. One in three reflections by a pane is then followed. Measured in four
-  // daylit rooms without interpolation: it reduces the time for the same noise by 3 to 22%. With 1, the noise
-  // is up to 1.5 times as large.
+  // daylit rooms without interpolation: it reduces the time for equal noise by 3 to 22%. With 1, the noise is
+  // up to 1.5 times as large.
   RSPHERE_TUNED(SpecularLight, double, kWeakBranch, .25);
 };
 
