@@ -289,8 +289,8 @@ class SceneReader {
     builder_.add(p);
   }
 
-  // The end of the error message for an undefined modifier_ that no type follows. It suggests what the user's
-  // mistake probably was.
+  // The end of the error message for an undefined modifier_ that is not followed by a type: the probable
+  // mistake of the user.
   std::string whyNoPrimitive(Place place) const {
     const Description& description = builder_.description();
     const bool first =

@@ -71,8 +71,8 @@ inline bool hasNoDirection(std::span<const double> ray) {
   return ray[3] * ray[3] + ray[4] * ray[4] + ray[5] * ray[5] == 0;
 }
 
-// rtrace's answer to a record whose direction is zero: that of the preceding ray (zeros if there is none), as
-// if it hit nothing.
+// rtrace's answer to a record whose direction is zero: the preceding ray (zeros if there is none), as if it
+// had hit nothing.
 RayAnswer bogusAnswer(const InputRay& before);
 
 }  // namespace rsphere

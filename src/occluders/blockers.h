@@ -55,8 +55,8 @@ class Blockers {
   const Box3d& bounds() const { return tracer_.bounds(); }
 
   // Whether a blocker hides everything in box `to` from everything in box `from`. known: blockers that were
-  // found for nearby boxes, beginning with the one that hid a box last. fromBothEnds: if holes let light pass
-  // the first surfaces on the way, the last ones are examined too. In a tall building with holes in its
+  // found for nearby boxes, beginning with the one that hid a box last. fromBothEnds: if the first surfaces
+  // between the boxes have holes, the last ones are examined, too. In a tall building with holes in its
   // slabs, often only the last slab hides a box.
   bool hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocker>& known, bool fromBothEnds) const;
 

@@ -55,10 +55,10 @@ class JoinedPolygons {
   JoinedPolygons(const Scene& scene, const Tracer& tracer);
   ~JoinedPolygons();
 
-  // The area of all polygons that stop shadow rays from the side in front of this polygon (front), or behind
-  // it, and that are connected to it. Null if no other polygon of its plane touches the box around it, unless
-  // the polygon may be concave; also null for polygons that are not quite plane. Only for polygons of the
-  // scene itself. May be called from any thread; the result is valid as long as this object.
+  // The area of this polygon and all polygons connected to it that stop shadow rays from the side in front of
+  // it (front), or behind it. Null if the polygon is convex and no other polygon of its plane touches the box
+  // around it, and for polygons that are not quite plane. Only for polygons of the scene itself. May be
+  // called from any thread; the result is valid as long as this object.
   const Area* areaOf(SurfaceId polygon, bool front) const;
 
  private:

@@ -7,10 +7,10 @@ namespace rsphere::tuning {
 // The standard error of a mean (error_estimate.cpp).
 struct ErrorEstimate {
   // Relative standard error of the mean due to the coarse solution (-aa above 0), assumed independent of the
-  // error of the directions. kPatches is due to its patches. An error of equal size is due to its rays if
-  // gathers have kUsualRays rays; it is inversely proportional to the square root of their number. Measured
-  // in a white room with a lamp, with and without a desk, by -Sn 16384 and patches as for 512 to 8192 rays:
-  // .08 to .04% (tests/bench/rtrace/runs/2026-11-28-patches.txt).
+  // error of the directions. It has two independent parts: kPatches, due to the patches, and kPatches
+  // (kUsualRays / n)^1/2, due to rays, for gathers of n rays. Measured in a white room with a lamp, with and
+  // without a desk, by -Sn 16384 and patches as for 512 to 8192 rays: .08 to .04%
+  // (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   RSPHERE_TUNED(ErrorEstimate, double, kPatches, .0005);
   static constexpr double kUsualRays = 1024;
   // Factor on the variance that is estimated from differences of evenly spread directions: derived. The right

@@ -228,7 +228,7 @@ class MatrixScattering final : public DirectedScattering {
       const auto sums = std::span(sums_).subspan(row * cells_, cells_);
       const double target = u * sums.back();
       auto found = static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), target) - sums.begin());
-      // Rounding may lead beyond the last cell that is not black.
+      // Rounding may select a cell after the last one that is not black.
       if (found == cells_)
         found = static_cast<size_t>(std::lower_bound(sums.begin(), sums.end(), sums.back()) - sums.begin());
       const double before = found == 0 ? 0 : sums[found - 1];

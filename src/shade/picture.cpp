@@ -315,8 +315,8 @@ constexpr std::string_view kColors = "32-bit_rle_rgbe", kSpectra = "Radiance_spe
 
 // Rejects a picture whose file is too short, before memory is allocated. In the new code, two bytes hold at
 // most 127 values of one of four channels: 16 pixels per byte. In the old code, 12 bytes may hold a whole
-// row. Up to 64 million pixels (256 MB), the file is therefore only required to have 4 bytes per row; beyond,
-// twice the pixels of the new code are allowed.
+// row. A picture of up to 64 million pixels (256 MB) is therefore only required to have 4 bytes per row; a
+// larger one may have at most twice the pixels that its bytes can hold in the new code.
 void checkLength(const Layout& layout, const Bytes& bytes) {
   constexpr size_t kAnyCode = size_t{1} << 26, kLeastRow = 4;
   const size_t left = bytes.left();
