@@ -54,7 +54,6 @@ class DescriptionBuilder {
   // Appends the primitive begun last. If it is a modifier, it becomes the current definition of its name.
   void add(const Primitive& p);
 
-  // An error with this text at this place.
   Error error(Place place, std::string_view text, Status status = Status::input) const;
 
   Description take() { return std::move(description_); }

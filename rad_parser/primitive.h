@@ -16,8 +16,7 @@ struct Place {
 };
 
 // The primitive types of the scene language (RADIANCE reference manual, "Scene description"). isSurface() and
-// isMixture() rely on the groups.
-// clang-format off
+// isMixture() rely on the groups. clang-format off
 enum class Type : uint8_t {
   // surfaces
   source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,

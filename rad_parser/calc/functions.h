@@ -13,7 +13,6 @@ struct LibraryFunction {
   int arity;
 };
 
-// The built-in function of this name, or null.
 const LibraryFunction* findLibraryFunction(std::string_view name);
 
 // The operation of one of the operators + - * /.

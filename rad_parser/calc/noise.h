@@ -8,10 +8,9 @@ namespace rad::calc {
 // is so large that a double has no fractional digits, the result has none either, but is still within [0,1).
 double randomOf(double x);
 
-// Perlin's improved noise: twice continuously differentiable, zero at integer points, with period
-// 256 along each axis, within [-1,1]. Returns 0 beyond +-2^31, where coordinates are not resolved
-// well enough to interpolate.
-// Source: K. Perlin, "Improving Noise", Computer Graphics 35(3), 2002.
+// Perlin's improved noise: twice continuously differentiable, zero at integer points, with period 256 along
+// each axis, within [-1,1]. Returns 0 beyond +-2^31, where coordinates are not resolved well enough to
+// interpolate. Source: K. Perlin, "Improving Noise", Computer Graphics 35(3), 2002.
 double noise3(double x, double y, double z);
 
 // The step of the backward difference (f(x) - f(x-step))/step that defines noise3x, noise3y and noise3z. It

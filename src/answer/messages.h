@@ -8,7 +8,6 @@
 
 namespace rsphere {
 
-// Options for messages.
 struct MessageOptions {
   bool warnings = true;              // -w
   std::string errorFile;             // -e

@@ -425,7 +425,6 @@ std::vector<GlareSource> takeSources(const char* at, const char* end) {
 }  // namespace
 
 struct Scene::Implementation {
-  // goals: SceneOptions::goals.
   Implementation(rsphere::Scene&& read, std::vector<std::string> goals)
       : scene_(std::make_shared<const rsphere::Scene>(std::move(read))), goals_(std::move(goals)) {}
 

@@ -47,7 +47,6 @@ struct Bands::Spares {
         while (block) ::operator delete(std::exchange(block, block->next));
     }
   };
-  // An empty block.
   static Block* take(const BandScheme& scheme, size_t room) {
     const size_t kind = classOf(room);
     Block*& spare = first[kind];

@@ -336,7 +336,6 @@ void checkIrradiance(Options& options) {
 // the point is finished, a kilobyte each.
 constexpr int kMostForAccuracy = 1000000, kMostToList = 100000;
 
-// -SG
 void checkSensors(const Options& options) {
   if (options.sensors.empty()) return;
   if (options.sphere.weights != Weights::silhouettes)
@@ -344,7 +343,6 @@ void checkSensors(const Options& options) {
   if (!options.picture.empty()) commandLineError("-SG", "sensors cannot be seen: not with -Si");
 }
 
-// -Sp
 void checkParts(const Options& options) {
   if (!options.separate) return;
   if (options.color.bands > 3)
@@ -366,7 +364,6 @@ void makeBins(Options& options) {
   sphere.zones = static_cast<int>(sphere.bins->count());
 }
 
-// -Su
 void checkGlare(const Options& options) {
   const SphereOptions& sphere = options.sphere;
   const GlareOptions usual;

@@ -9,7 +9,6 @@ namespace rsphere {
 // REQUIRES: options.request is not Request::answers.
 int printRequest(const Options& options, const Messages& messages);
 
-// Prints the text for a companion.
 int printRequest(const Companion& companion, Options& options, const Messages& messages);
 
 }  // namespace rsphere

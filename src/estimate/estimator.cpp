@@ -71,7 +71,6 @@ struct Half {
 
   explicit Half(const DirectionBins* zones) : moments(zones), ofZones(zones) {}
 
-  // ofSet: the moments of the set.
   void add(const SampledSet& set, const Moments& ofSet) {
     moments.add(ofSet, 1);
     excess += set.excess.total;

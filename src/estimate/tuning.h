@@ -1,6 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance and the
-// time, but not the mean, except slightly for those of Stopping.
+// Tuning constants (base/tuned.h). They affect variance and time, and Stopping slightly affects the mean.
 #include <cstddef>
 
 #include "base/tuned.h"

@@ -23,7 +23,6 @@ class InsertOnce {
       }
   }
 
-  // The value of the key, or null.
   Value* find(const Key& key) {
     Node* const node = findFrom(buckets_[key.hash() & mask_].load(std::memory_order_acquire), key);
     return node ? &node->value : nullptr;

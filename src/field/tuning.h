@@ -1,12 +1,6 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. They determine the spacing of
-// interpolated light, and thus its bias, its time and its memory.
-//
-// Each comment gives the meaning, the unit and the origin of the value. "Chosen by experiment": it was the
-// best of some values that were tried on pictures of furnished rooms
-// (tests/bench/rtrace/runs/2026-11-21-interpolated.txt); the results of the others were not kept.
-// "Insensitive": changing it by 30% had no effect beyond noise in tests/bench/sensitivity
-// (runs/2026-11-24.txt, or 2026-11-22.txt if it was not measured again).
+// Tuning constants (base/tuned.h). They determine the spacing of interpolated light, its bias, time and
+// memory. "Chosen by experiment": on pictures (tests/bench/rtrace/runs/2026-11-21-interpolated.txt).
 #include "base/tuned.h"
 
 namespace rsphere::tuning {

@@ -29,7 +29,6 @@ size_t glancesFor(const SphereOptions& options) {
                   std::max(base, tuning::DiffuseGlances::kMost));
 }
 
-// OutdoorRadiance by a tracer.
 struct Outdoors {
   PathTracer& tracer;
   Radiance operator()(const V3d& origin, const V3d& direction, int bounces, Random& random) const {

@@ -37,7 +37,6 @@ class DiffuseGlances {
 
   // The light found by the glances and joins of one set at its point.
   struct Found {
-    // gaze: Moments::gaze.
     explicit Found(const DirectionBins* zones = nullptr, const std::optional<V3d>& gaze = {})
         : moments(zones, gaze), ofZones(zones) {}
     Moments moments;     // of the light

@@ -2,7 +2,6 @@
 
 namespace rsphere {
 
-// Options of glare at an eye.
 struct GlareOptions {
   bool wanted = false;  // -Su
   // -Sub  Luminance above which regions other than light sources are glare sources. Values above kFixed are

@@ -70,7 +70,6 @@ class NormalEquations {
   }
   double fit(const Terms& half) const { return product(half, right_); }
   double leverage(const Terms& half) const { return product(half, half); }
-  // L^-1 x
   Terms solvedForwards(Terms x) const {
     for (size_t i = 0; i < size_; ++i) {
       for (size_t k = 0; k < i; ++k) x[i] -= a_[i][k] * x[k];

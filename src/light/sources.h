@@ -23,7 +23,6 @@ struct SourceSample {
   LightId source;
 };
 
-// How a source is sampled.
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
   double jitter = 0;   // size of the jittered region relative to the part (-dj), 0 to 1

@@ -1,6 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h). They affect the variance of direct light and the
-// computing time, but not the mean.
+// Tuning constants (base/tuned.h). They affect variance and time, not the mean.
 namespace rsphere::tuning {
 
 // How light sources are divided into parts and sampled (sources.cpp).

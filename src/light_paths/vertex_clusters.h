@@ -17,7 +17,6 @@ namespace rsphere {
 
 struct LightVertex;
 
-// Constant.
 class VertexClusters {
  public:
   // An order of the vertices in which the vertices of each cluster are consecutive. They are near each other

@@ -1,6 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance of light
-// and the computing time, but not the mean.
+// Tuning constants (base/tuned.h). They affect variance and time, not the mean.
 #include <cstddef>
 
 #include "base/tuned.h"

@@ -24,7 +24,6 @@ struct PixelLight {
   std::vector<float> known;  // fraction of the surrounding pixels with sampled light; 0: light is undefined
 };
 
-// Parameters of the smoothing.
 struct Smoothing {
   int passes = 0;        // each with twice the reach of the preceding one
   int careful = 0;       // number of further passes, in which pixels share light only if it differs little

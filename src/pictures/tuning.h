@@ -1,5 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h). They affect pictures (-Si).
+// Tuning constants (base/tuned.h) of pictures (-Si).
 #include <array>
 #include <cstddef>
 

@@ -18,7 +18,6 @@ struct GlareSource {
   double weight = 0;  // L^2 omega / P^2; sources are in descending order of it
 };
 
-// Glare at an eye.
 struct GlareAnswer {
   V3d eye{0, 0, 0}, gaze{0, 1, 0};  // gaze: unit
   GlareIndices indices, errors;     // errors: standard errors

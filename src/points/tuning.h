@@ -1,5 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h). They affect the estimated variance, not the mean.
+// Tuning constants (base/tuned.h). They affect the estimated variance, not the mean.
 #include "base/tuned.h"
 
 namespace rsphere::tuning {

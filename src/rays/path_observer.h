@@ -49,7 +49,6 @@ struct LeftOut {
   bool indirect = false, lobes = false;
 };
 
-// A ray that was traced: the query, the hit and the result.
 struct TracedRay : RayQuery, SurfaceHit, RayResult {
   TracedRay() = default;
   TracedRay(const RayEnd& end, const RayResult& result)

@@ -8,7 +8,6 @@
 
 namespace rsphere {
 
-// The answer for a ray that was traced.
 RayAnswer answerOf(const Scene& scene, const TracedRay& ray);
 
 // The answer for a ray that was passed to an observer (RayObserver): answerOf() with the ray's weight and

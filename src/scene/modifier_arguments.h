@@ -130,7 +130,6 @@ struct AnisotropicArguments {
 };
 AnisotropicArguments readAnisotropic(const PrimitiveArguments& arguments);
 
-// ashik2
 struct AshikhminArguments {
   Ashikhmin values;
   OrientationArguments orientation;
@@ -155,7 +154,6 @@ struct DataScattererArguments {
 };
 DataScattererArguments readDataScatterer(const PrimitiveArguments& arguments);
 
-// BRTDfunc
 struct BrtdArguments {
   BrtdFunction values;
   Words reflection, transmission;  // expressions, three each
@@ -164,7 +162,6 @@ struct BrtdArguments {
 };
 BrtdArguments readBrtd(const PrimitiveArguments& arguments);
 
-// WGMDfunc
 struct WgmdArguments {
   struct Lobe {
     std::string_view modifier;  // "inherit": the material's

@@ -18,7 +18,6 @@ namespace rsphere {
 // - For other polygons it is a cap.
 class Silhouette {
  public:
-  // Empty.
   Silhouette() = default;
 
   // The solid angle of the object, sr. For spheres and polygons it is exact to rounding: 0 in the plane of a

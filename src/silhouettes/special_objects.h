@@ -32,8 +32,7 @@ double irregularity(const Material& material);
 // point of examples/openplan also has 2200 to 3500 directions (accuracy_test.cpp,
 // SendsAsManyDirectionsAsThePaper; distribution: tests/bench/importance/runs/2026-11-21-histogram.txt). They
 // set the numbers of directions of -Sw v, and choose the special objects of both -Sw v and -Sw c. The effects
-// of changes, in the last sentences, are from tests/bench/sensitivity/runs/2026-11-22.txt. "Insensitive":
-// changing it by 30% had no effect beyond noise there.
+// of changes are from tests/bench/sensitivity/runs/2026-11-22.txt.
 //
 // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. Reducing
 // it by 30% changes the time by -17%, raising it by 30% by +15% (Voronoi cells).

@@ -1,6 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance and the
-// time, but not the mean over rotations (-Sr).
+// Tuning constants (base/tuned.h). They affect variance and time, not the mean.
 #include <cstddef>
 
 #include "base/constants.h"

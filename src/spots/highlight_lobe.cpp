@@ -8,7 +8,6 @@
 namespace rsphere {
 namespace {
 
-// A symmetric matrix.
 struct Symmetric {
   double xx, xy, yy;
 

@@ -80,7 +80,6 @@ class PathTracer::Path final : public RayFollower {
     state_.descendants = descendantsOfPrimary(
         settings_.mode, t_.options().ambientDivisions + t_.options().ambientSuperSamples);
   }
-  // The results of the primary ray.
   TracedRay traced(const RayEnd& end, const RayResult& result) const;
   // The context of a primary ray.
   PathContext context() const {

@@ -1,6 +1,5 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h), by subsystem. They affect the variance of light
-// and the computing time. Those of Interpolation also affect the mean, as -aa does.
+// Tuning constants (base/tuned.h). They affect variance and time; Interpolation also affects the mean.
 #include "base/tuned.h"
 
 namespace rsphere::tuning {

@@ -26,7 +26,6 @@ std::string equalErrorText(const Comparison& comparison, int orientations, doubl
 // The conclusion of figuresText(), without its full stop.
 std::string_view conclusion(Verdict verdict);
 
-// The verdict on a channel.
 std::string verdictText(const ChannelComparison& channel);
 
 // Formats 0.0123 as "1.23%", with more decimals for smaller values; signedPercent() adds a sign.

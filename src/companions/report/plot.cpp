@@ -40,7 +40,6 @@ LogAxis axisOf(std::span<const PlotPoint> extent, double PlotPoint::*value, doub
   return {low / kMargin, high * kMargin, from, to};
 }
 
-// The multiples of `step` from low to high.
 std::vector<double> multiples(double step, double low, double high) {
   std::vector<double> found;
   for (double k = std::ceil(low / step); k * step <= high; ++k) found.push_back(k * step);

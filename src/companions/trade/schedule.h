@@ -8,7 +8,6 @@
 
 namespace rsphere {
 
-// The progress of the reference.
 struct ReferenceProgress {
   double rotations = 0;          // number of finished rotations; below 1, the fraction of points answered in
                                  // the first one
