@@ -179,7 +179,7 @@ const Caches& cachesFor(const Transport& transport, bool haveVertices) {
 }
 Aims aimsFor(const Transport& transport, bool haveVertices) {
   Aims aims = transport.aims();
-  if (haveVertices && !aims.openings) aims.spots = nullptr;
+  if (haveVertices && !aims.of<Openings>()) aims.leaveOut<BrightSpots>();
   return aims;
 }
 
@@ -212,7 +212,8 @@ SphereEstimator::Method SphereEstimator::usualMethod(const Transport& transport,
       tracing.pools = &glances->lights();
     else
       tracing.ofPoints = findAimsOfPoints(transport.prepared());
-    tracing.aims = joined(aimsFor(transport, haveVertices), tracing.ofPoints);
+    tracing.aims = aimsFor(transport, haveVertices);
+    tracing.aims.add(tracing.ofPoints);
   }
   return {std::move(glances), std::move(tracing)};
 }
@@ -221,7 +222,7 @@ SphereEstimator::Method SphereEstimator::daylitMethod(const PlainSurfaces& surfa
   const SphereTracing& usual = usual_.tracing;
   auto glances = DiffuseGlances::makeDaylit(usual, surfaces, options_, base_);
   SphereTracing tracing{usual.prepared, usual.caches, usual.aims, &glances->lights()};
-  tracing.aims.spots = nullptr;
+  tracing.aims.leaveOut<BrightSpots>();
   return {std::move(glances), std::move(tracing)};
 }
 

@@ -160,9 +160,9 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::make(const PreparedScene& 
 
 std::optional<PlainSurfaces> daylitSurfaces(const SphereTracing& tracing) {
   const PreparedScene& prepared = tracing.prepared;
-  if (!tracing.aims.openings || prepared.options().ambientAccuracy > 0) return {};
+  if (!tracing.aims.of<Openings>() || prepared.options().ambientAccuracy > 0) return {};
   const V3d size = prepared.tracer().bounds().size();
-  Portals portals(*tracing.aims.openings, std::max({size.x, size.y, size.z}),
+  Portals portals(*tracing.aims.of<Openings>(), std::max({size.x, size.y, size.z}),
                   tracing.prepared.scene().samePlace);
   if (portals.empty()) return {};
   PlainSurfaces surfaces(prepared, std::move(portals));

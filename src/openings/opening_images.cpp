@@ -76,20 +76,21 @@ V3d OpeningImages::Image::crossing(const V3d& from, const V3d& to) const {
   return from + height / (height - above(to)) * (to - from);
 }
 
-void OpeningImages::aim(const V3d& point, const V3d& normal, Aim& aim) const {
+void OpeningImages::aim(const AimFrom& from, Aim& aim) const {
   aim.clear();
   aim.seen = 0;
   for (uint32_t i = 0; i < aimed_; ++i) {
     const Image& image = images_[i];
-    if (!(image.above(point) > 0)) continue;
-    const double factor = formFactorTo(image.place, image.filled, point, normal, [&](const V3d& at) {
-      return image.above(at) < 0 && contains(image.mirror, image.crossing(point, at));
-    });
+    if (!(image.above(from.point) > 0)) continue;
+    const double factor =
+        formFactorTo(image.place, image.filled, from.point, from.normal, [&](const V3d& at) {
+          return image.above(at) < 0 && contains(image.mirror, image.crossing(from.point, at));
+        });
     if (!(factor > 0)) continue;
     aim.seen += factor;
     aim.add(i, factor * kPi * image.radiance);
   }
-  aim.finish(point);
+  aim.finish(from.point);
 }
 
 V3d OpeningImages::sample(const Aim& aim, double u1, double u2, double u3) const {

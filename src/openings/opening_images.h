@@ -34,10 +34,10 @@ class OpeningImages {
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides: Openings::inside().
   double inside() const { return inside_; }
 
-  // The functions of a finder (proposals.h). Few directions are aimed at an image of which little lies within
-  // the mirror's outline.
+  // As a LightFinder. Few directions are aimed at an image of which little lies within the mirror's outline.
   using Aim = Openings::Aim;
-  void aim(const V3d& point, const V3d& normal, Aim& aim) const;
+  static constexpr AimedAt kKind = AimedAt::openings;
+  void aim(const AimFrom& from, Aim& aim) const;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
   double density(const Aim& aim, const V3d& direction) const;
 

@@ -9,17 +9,17 @@ std::vector<Openings::View> Openings::views() const {
   return views;
 }
 
-void Openings::aim(const V3d& point, const V3d& normal, Aim& aim) const {
+void Openings::aim(const AimFrom& from, Aim& aim) const {
   aim.clear();
   aim.seen = 0;
   for (uint32_t i = 0; i < openings_.size(); ++i) {
     const Opening& o = openings_[i];
-    const double factor = formFactorTo(o, o.filled, point, normal, [](const V3d&) { return true; });
+    const double factor = formFactorTo(o, o.filled, from.point, from.normal, [](const V3d&) { return true; });
     if (!(factor > 0)) continue;
     aim.seen += factor;
     aim.add(i, factor * kPi * o.power / o.filled);
   }
-  aim.finish(point);
+  aim.finish(from.point);
 }
 
 V3d Openings::sample(const Aim& aim, double u1, double u2, double u3) const {

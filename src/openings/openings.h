@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "openings/light_finder.h"
 #include "openings/proposals.h"
 #include "openings/rectangle.h"
 #include "openings/tuning.h"
@@ -48,14 +49,10 @@ class Openings {
     double seen = 0;  // form factor from the point to all openings
   };
 
-  // normal: unit, on the side where the light arrives.
-  void aim(const V3d& point, const V3d& normal, Aim& aim) const;
-
-  // A direction from the point towards an opening (unit); u1, u2, u3: uniform in [0, 1). u1 selects the
-  // opening. REQUIRES aim.mean > 0.
+  // As a LightFinder. u1 selects the opening.
+  static constexpr AimedAt kKind = AimedAt::openings;
+  void aim(const AimFrom& from, Aim& aim) const;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
-
-  // The density of the directions from sample(), per sr.
   double density(const Aim& aim, const V3d& direction) const;
 
   std::span<const Opening> all() const { return openings_; }

@@ -46,22 +46,4 @@ struct Proposals {
   }
 };
 
-// A finder of regions with its fraction of a mixture of directions. A finder has the members
-//   Aim                          its proposals at a point
-//   sample(aim, u1, u2, u3)      a direction towards a region (unit); u1, u2, u3: uniform in [0, 1)
-// density(aim, direction) the density of sample(), per sr
-template <class Finder>
-struct ShareOfMixture {
-  const Finder* finder;
-  typename Finder::Aim aim;
-  double share = 0;
-
-  explicit ShareOfMixture(const Finder* of) : finder(of) {}
-  // u: uniform in [0, share).
-  V3d sample(double u, double u2, double u3) const { return finder->sample(aim, u / share, u2, u3); }
-  double density(const V3d& direction) const {
-    return share > 0 ? share * finder->density(aim, direction) : 0;
-  }
-};
-
 }  // namespace rsphere

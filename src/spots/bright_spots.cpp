@@ -241,7 +241,8 @@ void BrightSpots::keep(const Spot& spot) {
 
 // A spot is treated as a small flat surface with the spot's normal. Spots that contain the point or are near
 // it are ignored.
-RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const V3d& point, const V3d& front, Aim& aim) const {
+RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const AimFrom& from, Aim& aim) const {
+  const auto& [point, front, rays, all] = from;
   const auto atX = static_cast<float>(point.x - spots_.origin.x),
              atY = static_cast<float>(point.y - spots_.origin.y),
              atZ = static_cast<float>(point.z - spots_.origin.z);

@@ -54,13 +54,10 @@ class BrightSpots {
     std::array<float, kRoom> sum;      // cumulative contributions of the spots
   };
 
-  // front: unit normal.
-  void aim(const V3d& point, const V3d& front, Aim& aim) const;
-
-  // A direction towards a spot (unit); u1, u2, u3: uniform in [0, 1). REQUIRES aim.mean > 0.
+  // As a LightFinder.
+  static constexpr AimedAt kKind = AimedAt::spots;
+  void aim(const AimFrom& from, Aim& aim) const;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;
-
-  // The density of the directions from sample(), per sr.
   double density(const Aim& aim, const V3d& direction) const;
 
  private:

@@ -2,6 +2,7 @@
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed
 // (ball_highlights.h, cylinder_highlights.h).
 
+#include "openings/light_finder.h"
 #include "spots/ball_highlights.h"
 #include "spots/cylinder_highlights.h"
 #include "spots/tuning.h"
@@ -27,26 +28,24 @@ class Highlights {
     CylinderHighlights::Aim cylinders;
   };
 
-  // front: unit normal. all: the mean radiance over the hemisphere (W/sr/m2); highlights that add little
-  // variance relative to it are ignored. rays: number of rays of the gather. If there are few, only the
-  // brightest balls are used, because finding highlights takes as long as tracing some rays.
-  void aim(const V3d& point, const V3d& front, double all, int rays, Aim& aim) const {
-    const bool few = rays < tuning::Highlights::kMany;
-    balls_.aim(point, front, (few ? tuning::Highlights::kLeastOfFew : 1) * least(all), aim.balls);
-    if (!few) cylinders_.aim(point, front, least(all), aim.cylinders);
+  // As a LightFinder. Highlights that add little variance relative to from.all are ignored. Of few rays, some
+  // are aimed at the brightest balls only, because finding highlights takes as long as tracing some rays.
+  static constexpr AimedAt kKind = AimedAt::highlights;
+  void aim(const AimFrom& from, Aim& aim) const {
+    const bool few = from.rays < tuning::Highlights::kMany;
+    balls_.aim(from.point, from.normal, (few ? tuning::Highlights::kLeastOfFew : 1) * least(from.all),
+               aim.balls);
+    if (!few) cylinders_.aim(from.point, from.normal, least(from.all), aim.cylinders);
     aim.mean = aim.balls.mean + aim.cylinders.mean;
   }
 
-  // A direction towards a highlight (unit); u1, u2, u3: uniform in [0, 1). 0 if the sampled direction misses
-  // the highlight. REQUIRES aim.mean > 0.
   V3d sample(const Aim& aim, double u1, double u2, double u3) const {
     const double toBalls = aim.balls.mean / aim.mean;
     if (u1 < toBalls) return balls_.sample(aim.balls, u1 / toBalls, u2, u3);
     return cylinders_.sample(aim.cylinders, (u1 - toBalls) / (1 - toBalls), u2, u3);
   }
 
-  // The density of the directions from sample(), per sr. It integrates to less than 1, because some
-  // directions miss the highlight.
+  // It integrates to less than 1, because some directions of sample() miss the highlight.
   double density(const Aim& aim, const V3d& direction) const {
     double sum = 0;
     if (aim.balls.mean > 0) sum += aim.balls.mean * balls_.density(aim.balls, direction);

@@ -129,7 +129,7 @@ Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject
       objects_(byModifier(tracing.prepared.scene(), objects)),
       hidden_(tracing.prepared.lights().hidden().blockers(), boxesOf(tracing.prepared.scene(), objects_),
               kFewHidden) {
-  if (objects.empty() && !tracing.aims.openings) return;
+  if (objects.empty() && !tracing.aims.of<Openings>()) return;
   const Scene& scene = tracing.prepared.scene();
   uint32_t number = 0;
   for (size_t i = 0; i < objects_.size(); ++i) {

@@ -106,12 +106,13 @@ Targets::Region Targets::regionAt(const V3d& direction) const {
 TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources, double densityFactor)
     : prepared_(tracing.prepared),
-      sunlit_(tracing.aims.spots ? tracing.aims.spots->sunlit() : std::span<const BrightSpots::Sunlit>()),
+      sunlit_(tracing.aims.of<BrightSpots>() ? tracing.aims.of<BrightSpots>()->sunlit()
+                                             : std::span<const BrightSpots::Sunlit>()),
       densityFactor_(densityFactor),
       contrasts_(tracing, objects, sources),
       glints_(tracing.prepared, objects),
-      images_(tracing.aims.images) {
-  const Openings* const openings = tracing.aims.openings;
+      images_(tracing.aims.of<OpeningImages>()) {
+  const Openings* const openings = tracing.aims.of<Openings>();
   radiances_.resize(contrasts_.objects().size());
   if (!openings) return;
   for (const Openings::View& view : openings->views()) {

@@ -2,7 +2,9 @@
 // Places from which much light comes, and at which rays are aimed (importance sampling). find_aims.h finds
 // them.
 #include <memory>
+#include <tuple>
 
+#include "openings/light_finder.h"
 #include "openings/opening_images.h"
 #include "openings/openings.h"
 #include "spots/bright_spots.h"
@@ -10,28 +12,69 @@
 
 namespace rsphere {
 
-// The places at which the rays of gathers are aimed. Null: no rays are aimed at places of this kind.
-struct Aims {
-  const Openings* openings = nullptr;
-  const BrightSpots* spots = nullptr;
-  const Highlights* highlights = nullptr;
-  const OpeningImages* images = nullptr;
+template <LightFinder... Finder>
+struct FinderList {
+  // Something for each finder, in the order of the list.
+  template <template <class> class Something>
+  using ForEach = std::tuple<Something<Finder>...>;
+};
+
+// All ways to find light for gathers. find_aims.cpp makes them.
+using Finders = FinderList<Openings, OpeningImages, BrightSpots, Highlights>;
+
+// The places at which the rays of gathers are aimed. Null: no rays are aimed at what this finder finds.
+class Aims {
+ public:
+  Aims() = default;
+  template <LightFinder... Finder>
+  explicit Aims(const Finder*... finder) {
+    ((std::get<const Finder*>(finders_) = finder), ...);
+  }
+
+  template <LightFinder Finder>
+  const Finder* of() const {
+    return std::get<const Finder*>(finders_);
+  }
+  // The finders in the order of the list.
+  const auto& all() const { return finders_; }
+  template <LightFinder... Finder>
+  void leaveOut() {
+    ((std::get<const Finder*>(finders_) = nullptr), ...);
+  }
+  // Adds the aims of others, in place of those of the same finder.
+  void add(const Aims& others) {
+    const auto replace = [](auto*& mine, auto* other) { mine = other ? other : mine; };
+    std::apply([&](auto... other) { (replace(std::get<decltype(other)>(finders_), other), ...); },
+               others.finders_);
+  }
+
+ private:
+  template <class Finder>
+  using Pointer = const Finder*;
+  Finders::ForEach<Pointer> finders_;
 };
 
 // Owns the places of Aims. Null: not searched for, or none was found.
-struct FoundAims {
-  std::unique_ptr<const Openings> openings;
-  std::unique_ptr<const BrightSpots> spots;
-  std::unique_ptr<const Highlights> highlights;
-  std::unique_ptr<const OpeningImages> images;
+class FoundAims {
+ public:
+  template <LightFinder Finder>
+  const Finder* of() const {
+    return std::get<Owner<Finder>>(finders_).get();
+  }
+  // Keeps a finder unless it is empty.
+  template <LightFinder Finder>
+  void keep(Finder&& finder) {
+    if (!finder.empty())
+      std::get<Owner<Finder>>(finders_) = std::make_unique<const Finder>(std::move(finder));
+  }
+  operator Aims() const {
+    return std::apply([](const auto&... finder) { return Aims(finder.get()...); }, finders_);
+  }
 
-  operator Aims() const { return {openings.get(), spots.get(), highlights.get(), images.get()}; }
+ private:
+  template <class Finder>
+  using Owner = std::unique_ptr<const Finder>;
+  Finders::ForEach<Owner> finders_;
 };
-
-// For each kind of place, the aims of `more`; where `more` has none, those of `some`.
-inline Aims joined(const Aims& some, const Aims& more) {
-  return {more.openings ? more.openings : some.openings, more.spots ? more.spots : some.spots,
-          more.highlights ? more.highlights : some.highlights, more.images ? more.images : some.images};
-}
 
 }  // namespace rsphere

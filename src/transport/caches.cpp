@@ -78,11 +78,11 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   const Box3d& bounds = prepared.tracer().bounds();
   caches.field = std::make_unique<IrradianceField>(scene, bounds, fieldOptions(o));
   // Without a distant source, openings only transmit the light of lamps from one room to another.
-  const bool isDaylit = aims.openings && !prepared.lights().distant().empty();
+  const bool isDaylit = aims.of<Openings>() && !prepared.lights().distant().empty();
   caches.byLamps = isLitByLamps(prepared);
   if (o.ambientBounces > 1)
     caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, fieldOptions(o),
-                                                     isDaylit ? aims.openings->depth() : 0);
+                                                     isDaylit ? aims.of<Openings>()->depth() : 0);
   if (o.ambientFile.empty()) return caches;
   if (o.sampling) {
     if (warn) warn("-af: nothing is kept of a spectral run (-cs above 3); the ambient file is ignored");

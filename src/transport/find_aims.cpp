@@ -5,42 +5,34 @@
 namespace rsphere {
 namespace {
 
-template <class T>
-std::unique_ptr<const T> unlessEmpty(T&& found) {
-  return found.empty() ? nullptr : std::make_unique<const T>(std::move(found));
+BrightSpots spotsOf(const PreparedScene& prepared, const Openings* openings) {
+  return BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), openings);
 }
 
-std::unique_ptr<const BrightSpots> spotsOf(const PreparedScene& prepared, const Openings* openings) {
-  return unlessEmpty(BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), openings));
-}
-
-std::unique_ptr<const OpeningImages> imagesOf(const PreparedScene& prepared, const Openings* openings) {
-  return openings ? unlessEmpty(OpeningImages(prepared, *openings)) : nullptr;
-}
-
-bool looksForSpots(const PreparedScene& prepared, const Openings* openings) {
-  return prepared.options().ambientAccuracy > 0 || openings;
+// Openings, unless the scene has importance goals, and their images in flat mirrors.
+FoundAims findOpeningsAndImages(const PreparedScene& prepared) {
+  FoundAims found;
+  if (prepared.scene().importance) return found;
+  found.keep(findOpenings(prepared));
+  if (const Openings* const openings = found.of<Openings>()) found.keep(OpeningImages(prepared, *openings));
+  return found;
 }
 
 }  // namespace
 
 FoundAims findAimsOfGathers(const PreparedScene& prepared) {
-  FoundAims found;
-  if (!prepared.options().hasIndirectLight()) return found;
-  const Scene& scene = prepared.scene();
-  if (!scene.importance) found.openings = unlessEmpty(findOpenings(prepared));
-  found.images = imagesOf(prepared, found.openings.get());
-  if (looksForSpots(prepared, found.openings.get())) found.spots = spotsOf(prepared, found.openings.get());
-  found.highlights = unlessEmpty(Highlights(scene, prepared.tracer(), prepared.lights()));
+  if (!prepared.options().hasIndirectLight()) return {};
+  FoundAims found = findOpeningsAndImages(prepared);
+  const Openings* const openings = found.of<Openings>();
+  if (prepared.options().ambientAccuracy > 0 || openings) found.keep(spotsOf(prepared, openings));
+  found.keep(Highlights(prepared.scene(), prepared.tracer(), prepared.lights()));
   return found;
 }
 
 FoundAims findAimsOfPoints(const PreparedScene& prepared) {
-  FoundAims found;
-  if (prepared.options().hasIndirectLight() || prepared.scene().importance) return found;
-  found.openings = unlessEmpty(findOpenings(prepared));
-  found.images = imagesOf(prepared, found.openings.get());
-  if (found.openings) found.spots = spotsOf(prepared, found.openings.get());
+  if (prepared.options().hasIndirectLight()) return {};
+  FoundAims found = findOpeningsAndImages(prepared);
+  if (const Openings* const openings = found.of<Openings>()) found.keep(spotsOf(prepared, openings));
   return found;
 }
 

@@ -12,58 +12,82 @@
 namespace rsphere {
 namespace {
 
-// Caps on the fractions of aimed directions. They limit the weight of unaimed directions to twice their
-// weight without aiming (with highlights, a third more than twice), and thus the growth of their variance.
-constexpr double kMostToOpenings = 1 - 1. / 2, kMostToHighlights = 1 - 3. / 4;
+// How many of the rays are aimed at places of a kind: `aimed` times the fraction of the light that comes from
+// them, at most the fraction `most`. This limits the weight of unaimed directions to twice their weight
+// without aiming (with highlights, a third more than twice), and thus the growth of their variance.
+struct Share {
+  double aimed, most;
+};
+Share shareOf(AimedAt kind) {
+  switch (kind) {
+    case AimedAt::openings: return {tuning::GatherDirections::kAimed, 1 - 1. / 2};
+    case AimedAt::spots: return {tuning::GatherDirections::kAimed, 1};
+    case AimedAt::highlights: return {1, 1 - 3. / 4};
+  }
+  return {};
+}
 
 // The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, two estimates are
 // made near them, where a room is brighter than elsewhere, and the smaller one is used.
 double usualRadiance(const Aims& aims) {
-  if (!aims.openings && !aims.images) return aims.spots ? aims.spots->usual() : aims.highlights->usual();
-  const double inside = aims.openings ? aims.openings->inside() : aims.images->inside();
-  const double least = aims.spots ? std::min(inside, aims.spots->usual()) : inside;
-  return tuning::GatherDirections::kFartherInside * least;
+  const auto* const openings = aims.of<Openings>();
+  const auto* const images = aims.of<OpeningImages>();
+  const auto* const spots = aims.of<BrightSpots>();
+  const auto* const highlights = aims.of<Highlights>();
+  if (!openings && !images) return spots ? spots->usual() : highlights ? highlights->usual() : 0;
+  const double inside = openings ? openings->inside() : images->inside();
+  return tuning::GatherDirections::kFartherInside * (spots ? std::min(inside, spots->usual()) : inside);
+}
+
+// Divides the rays between the finders of a kind.
+template <class... Finder>
+void divide(AimedAt kind, double all, ShareOfMixture<Finder>&... part) {
+  double mean = 0, seen = 0;
+  const auto ofKind = [&](const auto& p) {
+    return std::remove_reference_t<decltype(*p.finder)>::kKind == kind;
+  };
+  ((ofKind(part) ? (mean += part.aim.mean, seen += part.seen()) : 0), ...);
+  if (!(mean > 0)) return;
+  // Unaimed directions hit the places, too, as often as they fill the hemisphere. If these alone reach the
+  // limit, none is aimed.
+  const auto [aimed, most] = shareOf(kind);
+  const double unseen = std::max(0., 1 - seen / most);
+  // `all` can be 0, if that was the estimate for a room that little light enters.
+  const double share = std::min(most, aimed * mean / all * unseen);
+  ((ofKind(part) ? part.share = share * (part.aim.mean / mean) : 0), ...);
 }
 
 }  // namespace
 
 GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
                                    const V3d& trueNormal, int rays)
-    : normal_(normal),
-      trueNormal_(trueNormal),
-      openings_(aims.openings),
-      images_(aims.images),
-      spots_(aims.spots),
-      highlights_(aims.highlights) {
-  if (aims.openings) aims.openings->aim(point, normal, openings_.aim);
-  if (aims.images) aims.images->aim(point, normal, images_.aim);
-  if (aims.spots) aims.spots->aim(point, normal, spots_.aim);
-  const double aimedAt = openings_.aim.mean + images_.aim.mean + spots_.aim.mean;
-  if (!(aimedAt > 0) && !aims.highlights) return;
-  const double all = aimedAt + usualRadiance(aims);
-  if (aims.highlights) {
-    aims.highlights->aim(point, normal, all, rays, highlights_.aim);
-    // `all` can be 0, if that was the estimate for a room that little light enters.
-    if (highlights_.aim.mean > 0) highlights_.share = std::min(kMostToHighlights, highlights_.aim.mean / all);
-  }
-  if (!(aimedAt > 0)) return;
-  // Unaimed directions hit openings, too, in proportion to the form factor. If these alone reach the cap on
-  // the fraction of directions towards openings, none is aimed.
-  const double seen = openings_.aim.seen + images_.aim.seen;
-  const double unseen = std::max(0., 1 - seen / kMostToOpenings);
-  const double mean = openings_.aim.mean + images_.aim.mean;
-  const double share = std::min(kMostToOpenings, tuning::GatherDirections::kAimed * mean / all * unseen);
-  if (mean > 0) {
-    openings_.share = share * (openings_.aim.mean / mean);
-    images_.share = share * (images_.aim.mean / mean);
-  }
-  spots_.share = tuning::GatherDirections::kAimed * spots_.aim.mean / all;
+    : normal_(normal), trueNormal_(trueNormal), shares_(aims.all()) {
+  AimFrom from{point, normal, rays};
+  double aimedAt = 0;
+  const auto ask = [&](auto& part, bool highlights) {
+    if (!part.finder || (part.finder->kKind == AimedAt::highlights) != highlights) return;
+    part.finder->aim(from, part.aim);
+    if (!highlights) aimedAt += part.aim.mean;
+  };
+  std::apply(
+      [&](auto&... part) {
+        (ask(part, false), ...);
+        from.all = aimedAt + usualRadiance(aims);
+        (ask(part, true), ...);
+        for (const AimedAt kind : {AimedAt::openings, AimedAt::spots, AimedAt::highlights})
+          divide(kind, from.all, part...);
+      },
+      shares_);
+}
+
+double GatherDirections::unaimed() const {
+  return std::apply([](const auto&... part) { return (1 - ... - part.share); }, shares_);
 }
 
 // The density of the mixture in a direction, relative to sampling by projected solid angle.
 double GatherDirections::density(const V3d& direction) const {
-  const double aimed = openings_.density(direction) + images_.density(direction) + spots_.density(direction) +
-                       highlights_.density(direction);
+  const double aimed =
+      std::apply([&](const auto&... part) { return (... + part.density(direction)); }, shares_);
   return unaimed() + aimed * kPi / direction.dot(normal_);
 }
 
@@ -77,20 +101,19 @@ void GatherDirections::draw(const DirectionSet& set, Each each) const {
     double u = (i + shift1) / count;
     const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
     V3d direction;
-    if (u < openings_.share) {
-      direction = openings_.sample(u, even.x, even.y);
-    } else if ((u -= openings_.share) < images_.share) {
-      direction = images_.sample(u, even.x, even.y);
-    } else if ((u -= images_.share) < spots_.share) {
-      direction = spots_.sample(u, even.x, even.y);
-    } else if ((u -= spots_.share) < highlights_.share) {
-      direction = highlights_.sample(u, even.x, even.y);
-    } else {
+    const auto isAimedAt = [&](const auto& part) {
+      if (u < part.share) {
+        direction = part.sample(u, even.x, even.y);
+        return true;
+      }
+      u -= part.share;
+      return false;
+    };
+    if (!std::apply([&](const auto&... part) { return (isAimedAt(part) || ...); }, shares_)) {
       // A randomly shifted Fibonacci lattice over the projected hemisphere. It is as evenly distributed as a
       // jittered grid, for any number of rays.
       const double around = shift2 + i * kGolden;
-      direction = diffuseDirection(normal_, std::min(1., (u - highlights_.share) / unaimed()),
-                                   around - std::floor(around));
+      direction = diffuseDirection(normal_, std::min(1., u / unaimed()), around - std::floor(around));
     }
     if (direction.dot(normal_) <= 0 || direction.dot(trueNormal_) <= 0) continue;
     each(direction, 1 / (density(direction) * count));

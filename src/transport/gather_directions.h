@@ -1,14 +1,13 @@
 #pragma once
-// The directions of a gather. Most are distributed by projected solid angle; the others are aimed at
-// daylight openings and their images in mirrors, at bright spots, and at highlights on rough balls and
-// cylinders. Each is weighted by the density of the whole mixture in its direction (multiple importance
+// The directions of a gather. Most are distributed by projected solid angle; the others are aimed at what the
+// finders of light have found (aims.h). Each is weighted by the density of the whole mixture in its direction (multiple importance
 // sampling with the balance heuristic).
 
 #include <array>
 
 #include "base/function_ref.h"
 #include "base/random.h"
-#include "openings/proposals.h"
+#include "openings/light_finder.h"
 #include "rays/prepared_scene.h"
 #include "rays/ray.h"
 #include "transport/aims.h"
@@ -43,13 +42,10 @@ class GatherDirections {
 
  private:
   double density(const V3d& direction) const;
-  double unaimed() const { return 1 - openings_.share - images_.share - spots_.share - highlights_.share; }
+  double unaimed() const;
 
   V3d normal_, trueNormal_;
-  ShareOfMixture<Openings> openings_;
-  ShareOfMixture<OpeningImages> images_;
-  ShareOfMixture<BrightSpots> spots_;
-  ShareOfMixture<Highlights> highlights_;
+  Finders::ForEach<ShareOfMixture> shares_;
 };
 
 // Called for each ray before it is followed. The ray's coefficient is the factor on its radiance in the

@@ -73,9 +73,8 @@ class GatherNoise {
 Aims aimsAt(const RayEnd& end, const PathSettings& settings, const PathState& state) {
   Aims aims = settings.aims;
   if (end.known != Known::no && !state.request.vertexLight->surfaces().portals().empty()) {
-    aims.openings = nullptr;
-    aims.spots = nullptr;
-    if (end.known == Known::joined) aims.images = nullptr;
+    aims.leaveOut<Openings, BrightSpots>();
+    if (end.known == Known::joined) aims.leaveOut<OpeningImages>();
   }
   return aims;
 }
@@ -260,7 +259,7 @@ int IndirectLight::firstRays() const {
   // the run takes longer than in the original RADIANCE.
   constexpr int kMostDoublings = 3;
   const RayOptions& o = t_.options();
-  const bool daylit = settings_.aims.openings && t_.lights().all().empty();
+  const bool daylit = settings_.aims.of<Openings>() && t_.lights().all().empty();
   if (settings_.caches.field || !daylit || o.ambientBounces < 2) return 1;
   return o.firstRays > 0 ? o.firstRays : 1 << std::min(o.ambientBounces - 1, kMostDoublings);
 }

@@ -39,7 +39,7 @@ Openings openingsOf(const std::string& text) {
 // The radiance over the hemisphere that is expected from the openings.
 double radianceAt(const Openings& openings, const V3d& point, const V3d& normal) {
   Openings::Aim aim;
-  openings.aim(point, normal, aim);
+  openings.aim({point, normal}, aim);
   return aim.mean;
 }
 
@@ -181,7 +181,7 @@ TEST(Openings, AreAimedAtAsDensitySays) {
   };
   for (const Case& c : {Case{V3d(1.5, 3, 0), V3d(0, 0, 1)}, Case{V3d(0, 2.5, 1), V3d(1, 0, 0)}}) {
     Openings::Aim aim;
-    openings.aim(c.point, c.normal, aim);
+    openings.aim({c.point, c.normal}, aim);
     ASSERT_GT(aim.mean, 0);
     Random random(1);
     Sample whole, sampled, weighted, throughWindow;

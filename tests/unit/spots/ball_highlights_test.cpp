@@ -146,9 +146,9 @@ TEST(BallHighlights, AreAimedAtWhereTheyMatter) {
 
 TEST(BallHighlights, AreLookedForWithIndirectLightAlone) {
   const std::string scene = kMaterials + kBall + kBulb + kFloor;
-  EXPECT_FALSE(Traced(scene, unbiased(0)).transport().aims().highlights);
-  EXPECT_TRUE(Traced(scene, unbiased(1)).transport().aims().highlights);
-  EXPECT_FALSE(Traced(kMaterials + kBulb + kFloor, unbiased(1)).transport().aims().highlights);
+  EXPECT_FALSE(Traced(scene, unbiased(0)).transport().aims().of<Highlights>());
+  EXPECT_TRUE(Traced(scene, unbiased(1)).transport().aims().of<Highlights>());
+  EXPECT_FALSE(Traced(kMaterials + kBulb + kFloor, unbiased(1)).transport().aims().of<Highlights>());
 }
 
 // The parts of the directions sum to 1 on average, although some aimed directions miss and are left out.
@@ -158,7 +158,7 @@ TEST(BallHighlights, LeaveNoDirectionsOut) {
   const Aims aims = t.transport().aims();
   const GatherDirections directions(aims, point, up, up, 64);
   Highlights::Aim aim;
-  aims.highlights->aim(point, up, 0, 64, aim);
+  aims.of<Highlights>()->aim({point, up, 64}, aim);
   for (const int count : {1, 8, 64}) {
     Random random(1);
     Sample sum, aimed;
@@ -167,7 +167,7 @@ TEST(BallHighlights, LeaveNoDirectionsOut) {
       int there = 0;
       directions.draw({count, random}, [&](const V3d& direction, double part) {
         parts += part;
-        there += aims.highlights->density(aim, direction) > 0;
+        there += aims.of<Highlights>()->density(aim, direction) > 0;
       });
       sum.add(parts);
       aimed.add(static_cast<double>(there) / count);

@@ -35,10 +35,10 @@ TEST(BrightSpots, AreWhereLightIsThick) {
   const Traced pot(kRoom + kPot);
   EXPECT_FALSE(spotsOf(pot).empty());
   BrightSpots::Aim aim;
-  spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, 1), aim);
+  spotsOf(pot).aim({V3d(3, 3, 0), V3d(0, 0, 1)}, aim);
   EXPECT_GT(aim.mean, .3 * spotsOf(pot).usual());
   // No spot is in front of the back of the floor.
-  spotsOf(pot).aim(V3d(3, 3, 0), V3d(0, 0, -1), aim);
+  spotsOf(pot).aim({V3d(3, 3, 0), V3d(0, 0, -1)}, aim);
   EXPECT_EQ(aim.mean, 0);
 }
 
@@ -53,7 +53,7 @@ TEST(BrightSpots, AreNotWhereItIsEven) {
 double shareOfTheFirstHalf(const BrightSpots& spots) {
   const V3d point(2, 2, 0);
   BrightSpots::Aim aim;
-  spots.aim(point, V3d(0, 0, 1), aim);
+  spots.aim({point, V3d(0, 0, 1)}, aim);
   if (!(aim.mean > 0)) return 0;
   Random random(1);
   Sample first;
@@ -81,7 +81,7 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
   for (const V3d& point : {V3d(3, 3, 0), V3d(1, 1.5, 0), V3d(2, .3, 2.9)}) {
     const V3d middle = (V3d(1, 1, 2.7) - point).normalized();
     BrightSpots::Aim aim;
-    spots.aim(point, middle, aim);
+    spots.aim({point, middle}, aim);
     ASSERT_GT(aim.mean, 0);
     const double versine = .1;
     Random random(1);
@@ -117,7 +117,7 @@ TEST(BrightSpots, TheLargestNumberChoosesASpotThatContributes) {
     const double angle = .1 * i, radius = .3 * (i % 20) / 20;
     const V3d point(1 + radius * std::cos(angle), 1 + radius * std::sin(angle), 2.4 + .3 * (i % 7) / 7);
     BrightSpots::Aim aim;
-    spots.aim(point, V3d(0, 0, 1), aim);
+    spots.aim({point, V3d(0, 0, 1)}, aim);
     if (!(aim.mean > 0)) continue;
     inLast += aim.count > 1 && !(aim.sum[aim.count - 1] > aim.sum[aim.count - 2]);
     const V3d direction = spots.sample(aim, largest, .5, .5);
@@ -132,7 +132,7 @@ TEST(BrightSpots, TheLargestNumberChoosesASpotThatContributes) {
 TEST(BrightSpots, LeaveTheMeanAsItIs) {
   Traced pot(kRoom + kPot, unbiased(2));
   const BrightSpots spots = spotsOf(pot);
-  PathTracer aimed = pot.tracerWith(Aims{nullptr, &spots});
+  PathTracer aimed = pot.tracerWith(Aims(&spots));
   const V3d origin(3, 2.5, 1), down(.1, .2, -1);
   constexpr double kMean = 7.0979e-4;
   constexpr int kPaths = 80000;
@@ -155,7 +155,7 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
   const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
   for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
     BrightSpots::Aim aim;
-    spots.aim(point, V3d(0, 0, -1), aim);
+    spots.aim({point, V3d(0, 0, -1)}, aim);
     ASSERT_GT(aim.mean, .3 * spots.usual());
     Random random(1);
     Sample onSunlit;
@@ -171,7 +171,7 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
   }
   // Without openings, few of the particles that the sun sends to so wide a scene enter through the window.
   BrightSpots::Aim aim;
-  spotsOf(room).aim(V3d(2, 2, 3), V3d(0, 0, -1), aim);
+  spotsOf(room).aim({V3d(2, 2, 3), V3d(0, 0, -1)}, aim);
   EXPECT_EQ(aim.mean, 0);
 }
 
@@ -179,7 +179,7 @@ TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
   const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
-  PathTracer aimed = room.tracerWith(Aims{nullptr, &spots});
+  PathTracer aimed = room.tracerWith(Aims(&spots));
   // A ray to the north wall, below the sill, where no ground is visible through the window.
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
   Sample with, without;

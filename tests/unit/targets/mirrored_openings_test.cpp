@@ -25,7 +25,7 @@ struct Setting : SphereSetting {
                     "void metal steel 0 0 5 .9 .9 .9 1 .1\nvoid mirror silver 0 0 3 .9 .9 .9\n" + text),
             [](RayOptions& o) { o.ambientBounces = 1; }) {}
   std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
-    const OpeningImages* const images = transport->aims().images;
+    const OpeningImages* const images = transport->aims().of<OpeningImages>();
     return images ? mirroredOpenings(transport->prepared(), *images, point, least) : std::vector<Glint>();
   }
 };

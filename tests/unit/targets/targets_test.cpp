@@ -157,7 +157,7 @@ TEST(TargetChoice, HolesThatShowTheSkyAreTargets) {
     return TargetChoice(setting.tracing(aims), {}, sources, 1).at(point, meanBrightness, 512, 4096);
   };
   const Aims aims = setting.transport->aims();
-  ASSERT_TRUE(aims.openings);
+  ASSERT_TRUE(aims.of<Openings>());
   const V3d near(1.5, 1, 1.35), far(1.5, 4.9, 1.35);
   // 41 base directions per sr: 8 cover .2 sr. The window has .42 sr from near by, .02 sr from far away.
   const Targets even = at(aims, near, 10), bright = at(aims, near, .1), small = at(aims, far, .1);

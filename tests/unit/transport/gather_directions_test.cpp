@@ -14,12 +14,12 @@ namespace {
 TEST(GatherDirections, FewLeaveNoneOut) {
   const Traced room(kSunlitRoom, unbiased(2));
   const Aims aims = room.transport().aims();
-  ASSERT_TRUE(aims.openings && aims.spots);
+  ASSERT_TRUE(aims.of<Openings>() && aims.of<BrightSpots>());
   const V3d point(2, 2, 3), normal(0, 0, -1);
   Openings::Aim openings;
-  aims.openings->aim(point, normal, openings);
+  aims.of<Openings>()->aim({point, normal}, openings);
   BrightSpots::Aim spots;
-  aims.spots->aim(point, normal, spots);
+  aims.of<BrightSpots>()->aim({point, normal}, spots);
   ASSERT_GT(openings.mean, 0);
   ASSERT_GT(spots.mean, 0);
   const GatherDirections directions(aims, point, normal, normal, 64);
@@ -47,7 +47,7 @@ bool areAimed(const GatherDirections& directions) {
 
 TEST(GatherDirections, AreAimedWhereThatPays) {
   const Traced room(kSunlitRoom, unbiased(2));
-  const Aims openings{room.transport().aims().openings, nullptr};
+  const Aims openings(room.transport().aims().of<Openings>());
   const V3d down(0, 0, -1), south(0, -1, 0);
   EXPECT_TRUE(areAimed({openings, V3d(2, 2, 3), down, down, 64}));
   EXPECT_FALSE(areAimed({Aims{}, V3d(2, 2, 3), down, down, 64})) << "nothing to aim at";
@@ -63,9 +63,9 @@ TEST(GatherDirections, AreAimedAtImagesOfOpenings) {
       "void metal chrome 0 0 5 .9 .9 .9 1 0\n"
       "chrome polygon m 0 0 12 .02 .5 .1 .02 4.5 .1 .02 4.5 2.5 .02 .5 2.5\n";
   const Traced room(kRoomWithAWindow + mirror, unbiased(1));
-  const OpeningImages* const images = room.transport().aims().images;
+  const OpeningImages* const images = room.transport().aims().of<OpeningImages>();
   ASSERT_TRUE(images);
-  const Aims aims{nullptr, nullptr, nullptr, images};
+  const Aims aims(images);
   const V3d east(3, 2.5, 1.2), west(-1, 0, 0), floor(1.5, .2, 0), up(0, 0, 1);
   EXPECT_FALSE(areAimed({aims, floor, up, up, 64})) << "the image lies beside the mirror";
   ASSERT_TRUE(areAimed({aims, east, west, west, 64}));
@@ -101,8 +101,8 @@ TEST(GatherDirections, AreNotAimedWhereNothingIsSeen) {
                         highlight_scene::kBulb + roomOf("matt", V3d(4, 4, 3)),
                     unbiased(1));
   const Openings dark({}, 0, 1);
-  const Aims aims{&dark, nullptr, room.transport().aims().highlights};
-  ASSERT_TRUE(aims.highlights);
+  const Aims aims(&dark, room.transport().aims().of<Highlights>());
+  ASSERT_TRUE(aims.of<Highlights>());
   const V3d floor(1.5, 2, 0), up(0, 0, 1);
   EXPECT_TRUE(areAimed({aims, floor, up, up, 64}));
   EXPECT_FALSE(areAimed({aims, floor, -up, -up, 64}));

@@ -273,7 +273,7 @@ TEST(RayWeights, AWindowByNightIsNoDaylight) {
       "void light l 0 0 3 9 9 9\nl sphere lamp 0 0 4 1.5 1.5 1.5 .1\n";
   const auto patchesIn = [](const std::string& text) {
     Traced room(text, interpolated(3, 64, {-4, 1e-4}));
-    EXPECT_TRUE(room.transport().caches().aims.openings);
+    EXPECT_TRUE(room.transport().caches().aims.of<Openings>());
     EXPECT_GT(room.value(V3d(1, 1, 1), V3d(.3, .2, -1).normalized()), 0);
     return room.transport().caches().coarse->patches();
   };
