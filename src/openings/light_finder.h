@@ -27,8 +27,8 @@ concept LightFinder = requires(const Finder& finder, const AimFrom& from, typena
                                const V3d& direction, double u) {
   { Finder::kKind } -> std::convertible_to<AimedAt>;
   { finder.empty() } -> std::same_as<bool>;
-  // The proposals for a place. Afterwards aim.mean is the mean radiance over the hemisphere from them, without
-  // occlusion (W/sr/m2). aim.seen, if it exists, is the fraction of the hemisphere that they fill.
+  // The proposals for a place. Afterwards aim.mean is the mean radiance over the hemisphere from them,
+  // without occlusion (W/sr/m2). aim.seen, if it exists, is the fraction of the hemisphere that they fill.
   finder.aim(from, aim);
   { aim.mean } -> std::convertible_to<double>;
   // A direction towards a proposal (unit), or 0 if the sample misses it; u, u, u: uniform in [0, 1).

@@ -1,7 +1,7 @@
 #pragma once
 // The directions of a gather. Most are distributed by projected solid angle; the others are aimed at what the
-// finders of light have found (aims.h). Each is weighted by the density of the whole mixture in its direction (multiple importance
-// sampling with the balance heuristic).
+// finders of light have found (aims.h). Each is weighted by the density of the whole mixture in its direction
+// (multiple importance sampling with the balance heuristic).
 
 #include <array>
 
