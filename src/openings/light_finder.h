@@ -1,5 +1,5 @@
 #pragma once
-// What a way to find light has to offer, so that the rays of gathers can be aimed at what it finds.
+// The interface of a way to find light at which gathers aim rays.
 #include <concepts>
 #include <cstdint>
 
@@ -11,28 +11,28 @@ namespace rsphere {
 // gather_directions.cpp has for each kind.
 enum class AimedAt : uint8_t { openings, spots, highlights };
 
-// A place of a diffuse surface, which sends the rays of a gather.
+// A place of a diffuse surface that sends the rays of a gather.
 struct AimFrom {
   V3d point, normal;  // world; unit, on the side where the light arrives
   int rays = 0;       // approximate number of rays of the gather
-  // Mean radiance over the hemisphere, W/sr/m2, without what finders of highlights bring. It is an estimate.
-  // 0 for other finders, whose light is a part of it.
+  // For finders of highlights: an estimate of the mean radiance over the hemisphere (W/sr/m2) without
+  // highlights. 0 for other finders, whose light is a part of it.
   double all = 0;
 };
 
-// Keeps what it has found in a scene, and proposes directions from any place. What it does not find, or finds
-// in a wrong place, changes the variance of gathers, not their mean.
+// Contains the places that it has found in a scene, and proposes directions to them from any point. Missed
+// and misplaced places change the variance of gathers, not their mean.
 template <class Finder>
 concept LightFinder = requires(const Finder& finder, const AimFrom& from, typename Finder::Aim& aim,
                                const V3d& direction, double u) {
   { Finder::kKind } -> std::convertible_to<AimedAt>;
   { finder.empty() } -> std::same_as<bool>;
-  // The proposals for a place. Afterwards aim.mean is the mean radiance over the hemisphere from them,
-  // without occlusion (W/sr/m2). aim.seen, if it exists, is the fraction of the hemisphere that they fill.
+  // Sets the proposals for a place. aim.mean is the mean radiance over the hemisphere from them, without
+  // occlusion (W/sr/m2). aim.seen, if it exists, is the fraction of the hemisphere that they fill.
   finder.aim(from, aim);
   { aim.mean } -> std::convertible_to<double>;
-  // A direction towards a proposal (unit), or 0 if the sample misses it; u, u, u: uniform in [0, 1).
-  // REQUIRES aim.mean > 0.
+  // A direction towards a proposal (unit), or 0 if the sample misses it; each u: uniform in [0, 1). REQUIRES
+  // aim.mean > 0.
   { finder.sample(aim, u, u, u) } -> std::same_as<V3d>;
   // The density of the directions of sample(), per sr.
   { finder.density(aim, direction) } -> std::same_as<double>;

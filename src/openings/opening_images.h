@@ -34,7 +34,7 @@ class OpeningImages {
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides: Openings::inside().
   double inside() const { return inside_; }
 
-  // As a LightFinder. Few directions are aimed at an image of which little lies within the mirror's outline.
+  // See LightFinder. Few directions are aimed at an image of which little lies within the mirror's outline.
   using Aim = Openings::Aim;
   static constexpr AimedAt kKind = AimedAt::openings;
   void aim(const AimFrom& from, Aim& aim) const;

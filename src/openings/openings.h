@@ -49,7 +49,7 @@ class Openings {
     double seen = 0;  // form factor from the point to all openings
   };
 
-  // As a LightFinder. u1 selects the opening.
+  // See LightFinder. u1 selects the opening.
   static constexpr AimedAt kKind = AimedAt::openings;
   void aim(const AimFrom& from, Aim& aim) const;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;

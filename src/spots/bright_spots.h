@@ -54,7 +54,7 @@ class BrightSpots {
     std::array<float, kRoom> sum;      // cumulative contributions of the spots
   };
 
-  // As a LightFinder.
+  // See LightFinder.
   static constexpr AimedAt kKind = AimedAt::spots;
   void aim(const AimFrom& from, Aim& aim) const;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const;

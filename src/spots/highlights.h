@@ -28,8 +28,8 @@ class Highlights {
     CylinderHighlights::Aim cylinders;
   };
 
-  // As a LightFinder. Highlights that add little variance relative to from.all are ignored. Of few rays, some
-  // are aimed at the brightest balls only, because finding highlights takes as long as tracing some rays.
+  // See LightFinder. Highlights that add little variance relative to from.all are ignored. If there are few
+  // rays, only the brightest balls are used, because finding highlights takes as long as tracing some rays.
   static constexpr AimedAt kKind = AimedAt::highlights;
   void aim(const AimFrom& from, Aim& aim) const {
     const bool few = from.rays < tuning::Highlights::kMany;

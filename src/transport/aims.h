@@ -22,7 +22,7 @@ struct FinderList {
 // All ways to find light for gathers. find_aims.cpp makes them.
 using Finders = FinderList<Openings, OpeningImages, BrightSpots, Highlights>;
 
-// The places at which the rays of gathers are aimed. Null: no rays are aimed at what this finder finds.
+// The places at which the rays of gathers are aimed. A null finder: no rays are aimed at its places.
 class Aims {
  public:
   Aims() = default;
@@ -41,7 +41,7 @@ class Aims {
   void leaveOut() {
     ((std::get<const Finder*>(finders_) = nullptr), ...);
   }
-  // Adds the aims of others, in place of those of the same finder.
+  // Adds the finders of others, which replace finders of equal type.
   void add(const Aims& others) {
     const auto replace = [](auto*& mine, auto* other) { mine = other ? other : mine; };
     std::apply([&](auto... other) { (replace(std::get<decltype(other)>(finders_), other), ...); },

@@ -12,9 +12,9 @@
 namespace rsphere {
 namespace {
 
-// How many of the rays are aimed at places of a kind: `aimed` times the fraction of the light that comes from
-// them, at most the fraction `most`. This limits the weight of unaimed directions to twice their weight
-// without aiming (with highlights, a third more than twice), and thus the growth of their variance.
+// The fraction of rays that are aimed at places of a kind is `aimed` times the fraction of the light from
+// them, and at most `most`. The limit bounds the weight of unaimed directions to twice their weight without
+// aiming (with highlights, a third more than twice), and thus the growth of their variance.
 struct Share {
   double aimed, most;
 };
