@@ -211,7 +211,7 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& trac
   Glancing glancing{both, randomOf(set, GlanceStream::glances), &joins, nullptr, 4 * kPi / n};
   const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
-  glancing.scratch.outdoors = &outdoors;
+  glancing.outdoors = &outdoors;
   std::vector<DirectionSample> seen;
   for (const V3d& direction : set.turned(glances_)) {
     if (neighbours_) glancing.record = &recordFor(direction, records);
@@ -294,7 +294,7 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
   Radiance radiance = sight.passed * by.both.directOf(at, seen, by.random, by.scratch);
   if (isBlack(color)) return radiance;
   const VertexLight::Indirect how{prepared_.options().ambientBounces, by.joins ? sight.distance : 0,
-                                  by.record, color * by.cell};
+                                  by.record, color * by.cell, by.outdoors};
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
 
@@ -336,7 +336,7 @@ Radiance DiffuseGlances::along(const SetAtPoint& set, const V3d& direction, size
   Glancing alone{*own, randomOf(set, GlanceStream::single, number)};
   const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
-  alone.scratch.outdoors = &outdoors;
+  alone.outdoors = &outdoors;
   return glance(set.point(), direction, alone);
 }
 

@@ -70,6 +70,7 @@ class DiffuseGlances {
     VertexLight::Record* record = nullptr;  // null: errors are not requested
     double cell = 0;                        // solid angle of a glance, sr
     VertexLight::Scratch scratch{};
+    const OutdoorRadiance* outdoors = nullptr;
   };
   // One record for each zone and one for directions in no zone; a single one without zones.
   using Records = std::vector<VertexLight::Record>;

@@ -505,13 +505,26 @@ void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towar
   PartSampler(source, index, scene_, point, how, random, samples).sample(towards);
 }
 
-double LightSources::nearSolidAngle(LightId index, const V3d& point) const {
-  const LightSource& source = sources_[index];
-  const auto* plane = source.as<PlaneLight>();
-  if (!plane || !isNear(source, *plane, {}, point, source.center - point) ||
-      plane->normal.dot(point - source.center) <= scene_.samePlace)
-    return 0;
-  return solidAngleOf(source, *plane, {}, point);
+static_assert(kLightForms == 8, "Is the density of its samples known?");
+bool LightSources::isDensityKnown(LightId source) const {
+  const LightSource& light = sources_[source];
+  return light.isDistant() || light.as<PlaneLight>() || light.as<BallLight>();
+}
+
+double LightSources::density(const SourceSample& hit, const V3d& point) const {
+  const LightSource& source = sources_[hit.source];
+  const double distance = hit.distance, cosine = std::abs(hit.cosine);
+  if (const auto* plane = source.as<PlaneLight>()) {
+    const bool near = isNear(source, *plane, {}, point, source.center - point) &&
+                      plane->normal.dot(point - source.center) > scene_.samePlace;
+    const double solidAngle = near ? solidAngleOf(source, *plane, {}, point) : 0;
+    return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
+  }
+  // Rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its center.
+  const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
+  const double sine2 = r * r / square;
+  const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));
+  return cosine / (distance * distance * solidAngle);
 }
 
 }  // namespace rsphere

@@ -64,10 +64,12 @@ class LightSources {
     if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
-  // The solid angle (sr) of a plane source as seen from a near point; the samples of the undivided source
-  // (jitter 1) are then uniform by solid angle. 0 if the source is not near, so that samples are uniform by
-  // area, or not plane.
-  double nearSolidAngle(LightId source, const V3d& point) const;
+  // Whether the density of the samples of an undivided source with jitter 1 is known: of distant sources,
+  // plane ones and balls.
+  bool isDensityKnown(LightId source) const;
+  // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
+  // has hit. hit: its source, distance and cosine. REQUIRES isDensityKnown() and that it is not distant.
+  double density(const SourceSample& hit, const V3d& point) const;
 
  private:
   // Whether a point surely lies outside a virtual source's beam, despite rounding. Uses no square root.

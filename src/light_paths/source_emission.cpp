@@ -176,29 +176,8 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
   return kNone;
 }
 
-static_assert(kLightForms == 8, "Where are shadow rays aimed?");
 bool SourceEmission::isAimedAt(LightId source) const {
-  const LightSource& light = prepared_.lights().all()[source];
-  return senders_[source].even && (light.isDistant() || light.as<PlaneLight>() || light.as<BallLight>());
-}
-
-// The density (per area of the source, 1/m2) with which shadow rays from a place are aimed at the point of a
-// sample; 0 if it is unknown. cosine: between the ray and the normal at that point. REQUIRES a source that is
-// not distant.
-double SourceEmission::aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const {
-  const LightSource& source = prepared_.lights().all()[sample.source];
-  const double distance = sample.distance;
-  if (const auto* plane = source.as<PlaneLight>()) {
-    const double near = prepared_.lights().nearSolidAngle(sample.source, place);
-    return near > 0 ? cosine / (distance * distance * near) : 1 / plane->area;
-  }
-  if (!source.as<BallLight>()) return 0;
-  // Shadow rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its
-  // center.
-  const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
-  const double sine2 = r * r / square;
-  const double solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(std::max(0., 1 - sine2)));
-  return cosine / (distance * distance * solidAngle);
+  return senders_[source].even && prepared_.lights().isDensityKnown(source);
 }
 
 double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
@@ -213,7 +192,7 @@ double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& pla
   const double cosine = std::abs(sample.cosine), d = sample.distance;
   const double lightPaths =
       senders_[sample.source].density * cosine / kPi * normal.dot(sample.direction) / (d * d);
-  return lightPaths > 0 ? probability * aimedDensity(sample, place, cosine) / lightPaths : 0;
+  return lightPaths > 0 ? probability * prepared_.lights().density(sample, place) / lightPaths : 0;
 }
 
 double SourceEmission::lobesOver(const SourceSample& sample, const V3d& normal, double density) const {

@@ -79,7 +79,6 @@ class SourceEmission {
   Way way(LightId source, Numbers& random, FunctionScratch& scratch) const;
   Leaving leaveDistant(LightId source, ScrambledPoint& random) const;
   double triedPower(LightId source) const;
-  double aimedDensity(const SourceSample& sample, const V3d& place, double cosine) const;
   void share();
 
   const PreparedScene& prepared_;

@@ -212,12 +212,11 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
   if (how.bounces < 1) return {};
   const Radiance far = ofVertices(at, how, random);
   const Radiance near = far + ofNear(at, how, random, scratch);
-  return surfaces_.portals().empty() ? near : near + ofPortals(at, how, random, scratch);
+  return surfaces_.portals().empty() ? near : near + ofPortals(at, how, random);
 }
 
 // Light that enters through portals and arrives straight, or through panes.
-Radiance VertexLight::ofPortals(const PlainPlace& at, const Indirect& how, Random& random,
-                                Scratch& scratch) const {
+Radiance VertexLight::ofPortals(const PlainPlace& at, const Indirect& how, Random& random) const {
   const PortalDirections::Sample ray =
       PortalDirections(surfaces_.portals(), at.point, at.normal).draw(random);
   if (!(ray.share > 0)) return {};
@@ -225,7 +224,7 @@ Radiance VertexLight::ofPortals(const PlainPlace& at, const Indirect& how, Rando
   if (!sight.leaves) return {};
   const int bounces = prepared_.options().ambientBounces - how.bounces + 1;
   return sight.passed *
-         (*scratch.outdoors)(at.point + sight.distance * ray.direction, ray.direction, bounces, random) *
+         (*how.outdoors)(at.point + sight.distance * ray.direction, ray.direction, bounces, random) *
          ray.share;
 }
 
@@ -289,7 +288,8 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
                           (left * diffuseShare(*there.material, -there.normal.dot(direction))));
   Radiance sum = directAt(there, random, scratch);
   if (how.bounces > 1)
-    sum += indirectAt(there, {how.bounces - 1, 0, how.record, how.scale * share}, random, scratch);
+    sum +=
+        indirectAt(there, {how.bounces - 1, 0, how.record, how.scale * share, how.outdoors}, random, scratch);
   sum = sum * share;
   if (how.fromEye > 0 && hasRoughHighlight(*there.material))
     sum += sight.passed * directOf(there, {.view = direction, .shown = Shown::highlight}, random, scratch);

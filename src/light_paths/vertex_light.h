@@ -29,7 +29,6 @@ class VertexLight {
     std::vector<double> weights;
     std::vector<SourceSample> samples;
     FunctionScratch functions;
-    const OutdoorRadiance* outdoors = nullptr;  // during a call, unless there are no portals
   };
 
   // A place that is seen along a sampled direction from the eye. Its direct light is also estimated by joins
@@ -65,8 +64,9 @@ class VertexLight {
     // Distance from the eye, if joins of light vertices at the place with the eye estimate closeShare();
     // otherwise 0.
     double fromEye = 0;
-    Record* record = nullptr;  // null: contributions are not recorded
-    Coefficient scale{1};      // factor on the recorded contributions (sr)
+    Record* record = nullptr;                   // null: contributions are not recorded
+    Coefficient scale{1};                       // factor on the recorded contributions (sr)
+    const OutdoorRadiance* outdoors = nullptr;  // the light beyond portals. REQUIRED if there are any
   };
   // The mean radiance that arrives over the hemisphere of the place after at least one bounce (W/sr/m2).
   Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
@@ -89,7 +89,7 @@ class VertexLight {
   Radiance directAt(const PlainPlace& at, Random& random, Scratch& scratch) const;
   Radiance ofVertices(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofVertex(const PlainPlace& at, size_t i) const;
-  Radiance ofPortals(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
+  Radiance ofPortals(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofNear(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
   const PreparedScene& prepared_;

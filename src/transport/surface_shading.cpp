@@ -332,10 +332,9 @@ void SurfaceShading::addFromVertices(const RayEnd& end, const V3d& normal, const
     return follower_.follow(ray, context).value;
   };
   const OutdoorRadiance outdoors(beyond);
-  scratch_.outdoors = &outdoors;
-  value += coefficient * light.indirectAt(at, {t_.options().ambientBounces - end.context.ambientLevel},
-                                          state_.random, scratch_);
-  scratch_.outdoors = nullptr;
+  const VertexLight::Indirect how{.bounces = t_.options().ambientBounces - end.context.ambientLevel,
+                                  .outdoors = &outdoors};
+  value += coefficient * light.indirectAt(at, how, state_.random, scratch_);
 }
 
 void SurfaceShading::addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value) {
