@@ -274,41 +274,36 @@ bool SurfaceShading::leavesThroughPortal(const RayEnd& end) const {
                                                                  end.hit.length);
 }
 
-// Whether the light of a ray is left to portals: the ray leaves through a portal after a diffuse surface, but
-// not after a reflection through which light vertices are not connected. DirectLight leaves out shadow rays.
 bool SurfaceShading::leftToPortals(const RayEnd& end) const {
   const PathContext& ray = end.context;
-  return ray.ambientLevel > 0 && !(ray.kinds & kShadow) && leavesThroughPortal(end) &&
-         !(ray.known == Known::unjoined && isMirrored(ray));
+  return ownerOf(LightPart::throughPortal, {.known = ray.known,
+                                            .isShadow = (ray.kinds & kShadow) != 0,
+                                            .ambientLevel = ray.ambientLevel,
+                                            .isMirrored = isMirrored(ray)}) != Owner::eye &&
+         leavesThroughPortal(end);
 }
 
-SurfaceShading::FromBothEnds SurfaceShading::fromBothEnds(const RayEnd& end) {
+SurfaceShading::Owners SurfaceShading::ownersAt(const RayEnd& end) {
   if (end.known == Known::no) return {};
-  const PlainSurfaces& surfaces = state_.request.vertexLight->surfaces();
-  const Opaque* const material = surfaces.finishOf(end.hit.surface).opaque;
+  const Opaque* const material = state_.request.vertexLight->surfaces().finishOf(end.hit.surface).opaque;
   if (!material) return {};
-  FromBothEnds both{.direct = &surfaces, .indirect = &surfaces};
-  const bool rough = hasRoughHighlight(*material);
-  const bool unjoined = end.context.ambientLevel == 0 || end.known == Known::unjoined;
-  if (unjoined && isMirrored(end.context)) {
-    // A strong highlight needs more than one shadow ray.
-    const bool weak = !rough || material->specularity < tuning::VertexLight::kStrong;
-    if (!weak) both.direct = nullptr;
-    both.directHere = weak ? Shown::all : Shown::none;
-    both.indirectHere = true;
-  } else if (end.known == Known::unjoined && rough) {
-    both.directHere = Shown::highlight;
-  }
-  both.rest = restOf(end, both);
-  return both;
+  const OwnedRay ray{.known = end.known,
+                     .ambientLevel = end.context.ambientLevel,
+                     .isMirrored = isMirrored(end.context),
+                     .hasHighlight = hasRoughHighlight(*material),
+                     .isStrong = material->specularity >= tuning::VertexLight::kStrong};
+  const Owner indirect = ownerOf(LightPart::indirect, ray);
+  return {ownerOf(LightPart::ofSources, ray), ownerOf(LightPart::highlight, ray), indirect,
+          restOf(end, indirect)};
 }
 
 // Russian roulette: paths from both ends leave little light to paths from the eye, so that only some of these
 // are followed.
-double SurfaceShading::restOf(const RayEnd& end, const FromBothEnds& both) {
+double SurfaceShading::restOf(const RayEnd& end, Owner indirect) {
   const VertexLight& light = *state_.request.vertexLight;
-  if (!both.indirectHere && light.surfaces().coverage().all) return 0;
-  const double probability = both.indirectHere               ? tuning::VertexLight::kFollowed
+  const bool here = indirect == Owner::here;
+  if (!here && light.surfaces().coverage().all) return 0;
+  const double probability = here                            ? tuning::VertexLight::kFollowed
                              : end.context.ambientLevel == 0 ? light.vertices().shareOfRest()
                                                              : 1;
   if (probability >= 1) return 1;
@@ -353,15 +348,16 @@ template <ScattersLight S>
 bool SurfaceShading::estimate(RayEnd& end, S& scattering, RayResult& result) {
   light_.specular.add(end, scattering.sharp(), result);
   if (end.context.kinds & kShadow) return true;
-  const FromBothEnds both = fromBothEnds(end);
-  if (both.directHere != Shown::none)
-    addFromSource(end, scattering.trueNormal(), both.directHere, result.value);
-  const bool shares = estimateLobes(end, scattering, !both.direct, result);
-  if (both.indirect) end.known = both.indirectHere ? Known::unjoined : Known::joined;
+  const Owners owners = ownersAt(end);
+  if (owners.highlight == Owner::here)
+    addFromSource(end, scattering.trueNormal(),
+                  owners.ofSources == Owner::here ? Shown::all : Shown::highlight, result.value);
+  const bool shares = estimateLobes(end, scattering, owners.ofSources == Owner::eye, result);
+  if (owners.indirect != Owner::eye) end.known = knownAfter(owners.indirect);
   const auto partOfLobe = [&](const SourceSample& sample) { return lobesCoefficient(scattering, sample); };
   const PartOfLobe part(partOfLobe);
   for (const Component c : scattering.components())
-    estimateSide(end, scattering, c, both, shares ? &part : nullptr, result.value);
+    estimateSide(end, scattering, c, owners, shares ? &part : nullptr, result.value);
   return true;
 }
 
@@ -396,15 +392,15 @@ template <ScattersLight S>
 // Adds the indirect and direct light on one side.
 template <ScattersLight S>
 [[gnu::always_inline]] inline void SurfaceShading::estimateSide(const RayEnd& end, S& scattering,
-                                                                Component side, const FromBothEnds& both,
+                                                                Component side, const Owners& owners,
                                                                 const PartOfLobe* partOfLobe,
                                                                 Radiance& value) {
   const V3d point = end.hit.point + scattering.offset(side);
   if (const Coefficient indirect = scattering.indirect(side); maxChannel(indirect) > kNegligible) {
     const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
-    if (both.indirectHere) addFromVertices(end, normal, indirect, value);
-    if (!both.indirect || both.rest > 0) {
-      const Coefficient followed = indirect * (both.indirect ? both.rest : 1);
+    if (owners.indirect == Owner::here) addFromVertices(end, normal, indirect, value);
+    if (owners.rest > 0) {
+      const Coefficient followed = indirect * owners.rest;
       light_.indirect.add(end,
                           side == Component::reflected
                               ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
@@ -412,20 +408,19 @@ template <ScattersLight S>
                           value);
     }
   }
-  if (!scattering.takesDirect(side) ||
-      (both.direct && (both.direct->coverage().allDirect || !(both.rest > 0))))
-    return;
+  const PlainSurfaces* const known =
+      owners.ofSources == Owner::eye ? nullptr : &state_.request.vertexLight->surfaces();
+  if (!scattering.takesDirect(side) || (known && (known->coverage().allDirect || !(owners.rest > 0)))) return;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
     return scattering.coefficient(side, toSource, solidAngle, state_.random);
   };
   if (t_.options().chosenSources > 0 && scattering.isEven())
     return light_.direct.addOfChosen({end, point}, coefficient, scattering.front(), value);
-  if (!both.direct)
-    return light_.direct.add({end, point}, coefficient, scattering.front(), partOfLobe, value);
+  if (!known) return light_.direct.add({end, point}, coefficient, scattering.front(), partOfLobe, value);
   const auto ofRest = [&](const V3d& toSource, double solidAngle) {
-    return coefficient(toSource, solidAngle) * both.rest;
+    return coefficient(toSource, solidAngle) * owners.rest;
   };
-  light_.direct.add({end, point, both.direct}, ofRest, scattering.front(), partOfLobe, value);
+  light_.direct.add({end, point, known}, ofRest, scattering.front(), partOfLobe, value);
 }
 
 bool SurfaceShading::estimate(RayEnd& end, Passes, RayResult& result) {
@@ -439,8 +434,9 @@ bool SurfaceShading::estimate(RayEnd& end, const Alternate& alternate, RayResult
 }
 
 bool SurfaceShading::estimate(RayEnd& end, const Emits& emits, RayResult& result) {
-  // Estimated by paths from both ends.
-  if (end.context.known != Known::no && (end.context.kinds & kShadow)) return true;
+  if (ownerOf(LightPart::emitted,
+              {.known = end.context.known, .isShadow = (end.context.kinds & kShadow) != 0}) != Owner::eye)
+    return true;
   result.value = emits.radiance;
   // Not for shadow rays, which are the most frequent.
   if (!(end.context.kinds & kShadow)) noteShown(t_, end, state_);

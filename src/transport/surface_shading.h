@@ -1,6 +1,7 @@
 #pragma once
 // Shading of the surface that a ray hit: processes its chain of modifiers down to a material, including
 // mixtures, and adds up the light that the material's response requires (shade/material_response.h).
+#include "light_paths/owners.h"
 #include "light_paths/vertex_light.h"
 #include "rays/prepared_scene.h"
 #include "rays/ray_follower.h"
@@ -69,26 +70,22 @@ class SurfaceShading : PathPart {
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
   bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // The light that a surface's ordinary shading leaves out, because paths from both ends estimate it (known
-  // paths: PlainSurfaces), either at this surface, or at the eye or an earlier surface.
-  struct FromBothEnds {
-    // Direct light, also in the rough highlight; null: not left out.
-    const PlainSurfaces* direct = nullptr;
-    const PlainSurfaces* indirect = nullptr;  // indirect light; null: not left out
-    Shown directHere = Shown::none;
-    bool indirectHere = false;
-    double rest =
-        1;  // factor on the light that is left to paths from the eye; 0: they are not followed here
+  // Who estimates the light that a surface reflects (owners.h).
+  struct Owners {
+    Owner ofSources = Owner::eye, highlight = Owner::eye, indirect = Owner::eye;
+    // Factor on the light that is left to paths from the eye although others own the known light; 0: they are
+    // not followed here.
+    double rest = 1;
   };
   bool leavesThroughPortal(const RayEnd& end) const;
-  FromBothEnds fromBothEnds(const RayEnd& end);
-  double restOf(const RayEnd& end, const FromBothEnds& both);
+  Owners ownersAt(const RayEnd& end);
+  double restOf(const RayEnd& end, Owner indirect);
   void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
   void addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value);
   template <ScattersLight S>
   bool estimateLobes(const RayEnd& end, S& scattering, bool mayShare, RayResult& result);
   template <ScattersLight S>
-  void estimateSide(const RayEnd& end, S& scattering, Component side, const FromBothEnds& both,
+  void estimateSide(const RayEnd& end, S& scattering, Component side, const Owners& owners,
                     const PartOfLobe* partOfLobe, Radiance& value);
   template <ScattersLight S>
   Radiance lobesPart(const S& scattering, const RayEnd& sample) const;
