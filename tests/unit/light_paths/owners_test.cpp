@@ -50,8 +50,8 @@ double timesCounted(const std::string& path, const Rule& owner) {
   return times;
 }
 
-// All classes with up to `most` surfaces. Where light is mirrored between the last diffuse surface and a lamp,
-// an image of the lamp is the source.
+// All classes with up to `most` surfaces. Where light is mirrored between the last diffuse surface and a
+// lamp, an image of the lamp is the source.
 std::vector<std::string> classes(size_t most) {
   std::vector<std::string> found, ends{""};
   for (size_t n = 0; n <= most; ++n) {
