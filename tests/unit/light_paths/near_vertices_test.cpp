@@ -43,9 +43,15 @@ TEST(NearVertices, AllWithinHalfTheSideArePossible) {
       for (const LightVertex& v : vertices) {
         const double probability = around.probabilityOf(v), distance = (v.point() - at).length();
         sum += probability;
-        if (!v.isUnbounded()) { EXPECT_EQ(probability, 0); }
-        if (v.isUnbounded() && distance < .5 * kWidth) { EXPECT_GT(probability, 0); }
-        if (distance > 4 * kWidth * std::sqrt(3.)) { EXPECT_EQ(probability, 0); }
+        if (!v.isUnbounded()) {
+          EXPECT_EQ(probability, 0);
+        }
+        if (v.isUnbounded() && distance < .5 * kWidth) {
+          EXPECT_GT(probability, 0);
+        }
+        if (distance > 4 * kWidth * std::sqrt(3.)) {
+          EXPECT_EQ(probability, 0);
+        }
       }
       EXPECT_NEAR(sum, around.empty() ? 0 : 1, 1e-9);
     }
