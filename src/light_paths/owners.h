@@ -22,7 +22,7 @@ enum class LightPart : uint8_t {
   throughPortal  // from beyond a portal through which the ray leaves
 };
 
-// What decides about a ray.
+// The data of a ray on which its owners depend.
 struct OwnedRay {
   Known known = Known::no;  // of the ray; for the light that its end reflects: of the end (RayEnd::known)
   bool isShadow = false;
@@ -33,7 +33,7 @@ struct OwnedRay {
 
 inline Owner ownerOf(LightPart part, const OwnedRay& ray) {
   if (ray.known == Known::no) return Owner::eye;
-  // Light vertices are not connected through the reflection in which the place is seen.
+  // An earlier place is not connected with light vertices through a mirror.
   const bool unconnected = ray.isMirrored && (ray.ambientLevel == 0 || ray.known == Known::unjoined);
   switch (part) {
     // A shadow ray towards a known source finds other light only on its way.

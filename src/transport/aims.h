@@ -14,9 +14,9 @@ namespace rsphere {
 
 template <LightFinder... Finder>
 struct FinderList {
-  // Something for each finder, in the order of the list.
-  template <template <class> class Something>
-  using ForEach = std::tuple<Something<Finder>...>;
+  // A tuple of one Element<Finder> for each finder, in their order.
+  template <template <class> class Element>
+  using ForEach = std::tuple<Element<Finder>...>;
 };
 
 // All ways to find light for gathers. find_aims.cpp makes them.
