@@ -33,7 +33,6 @@ struct Setting : SphereSetting {
 constexpr const char* kMaterials =
     "void plastic gray 0 0 5 .6 .5 .4 0 0\nvoid metal steel 0 0 5 .6 .6 .6 .5 .1\nvoid mirror silver 0 0 3 "
     ".9 .9 .9\nvoid light lamp 0 0 3 20 20 20\nvoid plastic goal 0 0 5 .4 .25 .15 0 0\n";
-constexpr const char* kFloor = "gray polygon floor 0 0 12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n";
 
 // A desk that is the goal, with a partition beside it.
 std::string deskBesideGoal() {
