@@ -211,7 +211,7 @@ std::string whyUnknown(const Companion& companion, std::string_view word) {
 
 void apply(const Use& use, Options& options) {
   const OptionEntry& entry = *use.entry;
-  if (entry.support == Support::refused && (entry.harmless == nullptr || !entry.harmless(use.words)))
+  if (entry.support == Support::refused)
     throw rad::Error(fmt::format("option '{}' is not supported: {}", entry.name, entry.reason));
   struct Set {
     const Use& use;

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace rsphere {
 
-// The section of an option in -help and in the manual.
+// The section of an option in -help and in the manual. Those of companion programs have no sections.
 enum class Group : uint8_t {
   records,
   sphere,
@@ -22,8 +23,14 @@ enum class Group : uint8_t {
   color,
   trees,
   program,
-  companion  // options of companion programs
+  companion
 };
+constexpr std::pair<Group, std::string_view> kGroups[] = {
+    {Group::records, "Records"},         {Group::sphere, "Sphere mode"},
+    {Group::direct, "Direct light"},     {Group::specular, "Highlights"},
+    {Group::indirect, "Indirect light"}, {Group::limits, "Limits of a path"},
+    {Group::medium, "Medium"},           {Group::color, "Colors"},
+    {Group::trees, "Ray trees"},         {Group::program, "Program"}};
 
 // How an option is supported: fully; accepted without effect; or refused with a reason.
 enum class Support : uint8_t { full, unused, refused };
@@ -56,32 +63,51 @@ struct Custom {
 using OptionValue = std::variant<std::monostate, SwitchValue, IntegerValue, CountValue, RealValue, ColorValue,
                                  WordValue, WordsValue, Custom>;
 
-// One option. The parser, -defaults, -help and the manual are generated from these entries.
-struct OptionEntry {
+// The member of Options, or of a struct derived from it, as the value of an option.
+template <class Owner, class Member>
+Owner ownerOf(Member Owner::*);
+template <auto kMember>
+auto& of(Options& o) {
+  return static_cast<decltype(ownerOf(kMember))&>(o).*kMember;
+}
+
+// What every option has.
+struct OptionForm {
   std::string_view name{};       // "-ab"
   std::string_view arguments{};  // names of the words after it: "N", "red grn blu"; or nothing
+  std::string_view remark{};     // one line for -defaults; for switches "on|off"
   Group group = Group::program;
   OptionValue value{};
-  Range range{};              // of each of its numbers
-  std::string_view unit{};    // unit of the numbers, if any
-  std::string_view remark{};  // one line for -defaults; for switches "on|off"
-  std::string_view help{};    // used instead of the remark in -help, where rtrace's remark is unclear
+  Range range{};            // of each of its numbers
+  std::string_view unit{};  // unit of the numbers, if any
+};
+
+// What few options have.
+struct OptionExtras {
+  std::string_view help{};  // used instead of the remark in -help, where rtrace's remark is unclear
   // The only mode in which the option works, and a remark for the message that refuses it in the other mode.
   // A switch that is off is accepted in both.
   Mode mode = Mode::both;
   std::string_view elsewhere{};
-  std::string_view paragraph{};  // for the manual
   Support support = Support::full;
   std::string_view reason{};  // why it is refused
-  // Whether a refused option is accepted with these words, because they have no effect. Null: never.
-  bool (*harmless)(std::span<const std::string> words) = nullptr;
-  bool glued = false;      // its value follows without a blank: -fio -ospec
-  bool alsoGlued = false;  // its value may follow without a blank: -te mod, -temod
+  bool glued = false;         // its value follows without a blank: -fio -ospec
+  bool alsoGlued = false;     // its value may follow without a blank: -te mod, -temod
   // For a switch whose value only determines what -defaults prints, like rtrace: whether it is in effect,
   // which is shown in -help and the manual.
   bool (*inEffect)(const Options&) = nullptr;
   // The line of -defaults without its remark, if it does not follow from the type; "" for no line.
   std::string (*line)(const Options&) = nullptr;
+};
+constexpr OptionExtras pointsOnly(std::string_view elsewhere = {}) {
+  return {.mode = Mode::points, .elsewhere = elsewhere};
+}
+
+// One option. The parser, -defaults, -help and the manual are generated from these entries, together with
+// the paragraphs of the manual in man/*.options.
+struct OptionEntry : OptionForm, OptionExtras {
+  constexpr OptionEntry(const OptionForm& form, const OptionExtras& extras = {})
+      : OptionForm(form), OptionExtras(extras) {}
 };
 
 // All options in the order of -defaults: those of rtrace in rtrace's order, then those of rsphere.
@@ -146,10 +172,9 @@ struct UsedOption {
 std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
                                        Options& options);
 
-// The texts of -help and -defaults of a companion, and its options as a part of its manual.
+// The texts of -help and -defaults of a companion.
 std::string companionHelp(const Companion& companion, Options& options);
 std::string companionDefaults(const Companion& companion, Options& options);
-std::string companionManual(const Companion& companion, Options& defaults);
 
 // The text of -defaults: each option with its current value, in option syntax. Without the remarks, which
 // begin with '#', it can be read by @file. takes: Companion::takes.
@@ -166,9 +191,7 @@ struct FeatureReport {
 FeatureReport featureReport(std::span<const std::string> wanted,
                             std::span<const std::string_view> features = {});
 
-// The options as a part of man/rsphere.1, in man(7) macros.
-std::string manualText();
-// The rows of the manual on the quantities of points.
-std::string quantitiesText();
+// The value of an option in its shortest form; empty if it has none.
+std::string shortValue(const OptionEntry& entry, Options& options);
 
 }  // namespace rsphere

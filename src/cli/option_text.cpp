@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "answer/header.h"
@@ -129,90 +127,6 @@ std::string lineOf(const OptionEntry& entry, Options& options) {
   return "";
 }
 
-std::string_view groupName(Group group) {
-  switch (group) {
-    case Group::records: return "Records";
-    case Group::sphere: return "Sphere mode";
-    case Group::direct: return "Direct light";
-    case Group::specular: return "Highlights";
-    case Group::indirect: return "Indirect light";
-    case Group::limits: return "Limits of a path";
-    case Group::medium: return "Medium";
-    case Group::color: return "Colors";
-    case Group::trees: return "Ray trees";
-    case Group::program: return "Program";
-    case Group::companion: return "";
-  }
-  return "";
-}
-
-constexpr std::array kGroups = {Group::records,  Group::sphere, Group::direct, Group::specular,
-                                Group::indirect, Group::limits, Group::medium, Group::color,
-                                Group::trees,    Group::program};
-
-// The value in its shortest form; empty if the option has none.
-std::string valueOf(const OptionEntry& entry, Options& options) {
-  if (entry.inEffect != nullptr) return entry.inEffect(options) ? "on" : "off";
-  if (entry.support == Support::refused) return "";
-  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
-  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
-    return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<CountValue>(&entry.value)) return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<RealValue>(&entry.value)) return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
-    const Color& c = (*value)(options);
-    return fmt::format("{} {} {}", c.x, c.y, c.z);
-  }
-  if (std::holds_alternative<Custom>(entry.value) && entry.line != nullptr) {
-    const std::string line = entry.line(options);
-    const size_t from = entry.name.size() + (entry.glued ? 0 : 1);
-    if (line.size() <= from) return "";
-    return line.substr(from, line.find_first_of(" \t", from) - from);
-  }
-  return "";
-}
-
-// The sentences of the manual on the unit and the range.
-std::string unitAndRange(const OptionEntry& entry) {
-  std::string text;
-  if (!entry.unit.empty()) text += fmt::format("Unit: {}. ", entry.unit);
-  const bool low =
-      std::isfinite(entry.range.lowest) && entry.range.lowest != -std::numeric_limits<int>::max();
-  const bool high =
-      std::isfinite(entry.range.highest) && entry.range.highest != std::numeric_limits<int>::max();
-  if (low && high) text += fmt::format("From {} to {}. ", entry.range.lowest, entry.range.highest);
-  if (low && !high) text += fmt::format("At least {}. ", entry.range.lowest);
-  return text;
-}
-
-// unitAndRange(), followed by the defaults.
-std::string facts(const OptionEntry& entry) {
-  std::string text = unitAndRange(entry);
-  Options rays = modeDefaults(false), spheres = modeDefaults(true);
-  const std::string ray = valueOf(entry, rays), sphere = valueOf(entry, spheres);
-  if (entry.name == "-S" || ray.empty()) return text;
-  if (ray == sphere || entry.group == Group::sphere)
-    text += fmt::format("Default: {}. ", sphere);
-  else
-    text += fmt::format("Default: {} in ray mode, {} in sphere mode. ", ray, sphere);
-  return text;
-}
-
-// Escapes text for man(7): lines may not begin with a dot or a quote, and a hyphen is written as a minus.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else
-      out += c;
-  }
-  if (!out.empty() && (out[0] == '.' || out[0] == '\'')) out.insert(0, "\\&");
-  return out;
-}
-
 std::string helpLine(const OptionEntry& entry, Options& values) {
   const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
   const std::string use = fmt::format("{}{}{}", entry.name,
@@ -220,7 +134,7 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                                       : entry.glued ? ""
                                                     : " ",
                                       entry.arguments);
-  const std::string value = valueOf(entry, values);
+  const std::string value = shortValue(entry, values);
   return fmt::format("  {:<20} {}{}\n", use,
                      isSwitch             ? entry.remark.substr(0, entry.remark.find('|'))
                      : entry.help.empty() ? entry.remark
@@ -228,20 +142,6 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                      entry.support == Support::unused ? " (no effect)"
                      : value.empty()                  ? ""
                                                       : fmt::format(" [{}]", value));
-}
-
-// The part of a manual on one option. `more` follows its paragraph.
-std::string manualEntry(const OptionEntry& entry, const std::string& more) {
-  const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
-  std::string text = fmt::format(".TP\n.BI {}{}\n", escaped(entry.name),
-                                 isSwitch ? " [+|\\-]"
-                                 : entry.arguments.empty()
-                                     ? ""
-                                     : fmt::format(" \"{}{}\"", entry.glued ? "" : " ", entry.arguments));
-  text += escaped(entry.paragraph);
-  if (entry.support == Support::refused) text += escaped(fmt::format(" Not supported: {}.", entry.reason));
-  if (!more.empty()) text += '\n' + escaped(more.substr(0, more.size() - 1));
-  return text + '\n';
 }
 
 // Features common to all programs, in RADIANCE's words.
@@ -290,6 +190,27 @@ bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
 
 }  // namespace
 
+std::string shortValue(const OptionEntry& entry, Options& options) {
+  if (entry.inEffect != nullptr) return entry.inEffect(options) ? "on" : "off";
+  if (entry.support == Support::refused) return "";
+  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
+  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
+    return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<CountValue>(&entry.value)) return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<RealValue>(&entry.value)) return fmt::format("{}", (*value)(options));
+  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
+    const Color& c = (*value)(options);
+    return fmt::format("{} {} {}", c.x, c.y, c.z);
+  }
+  if (std::holds_alternative<Custom>(entry.value) && entry.line != nullptr) {
+    const std::string line = entry.line(options);
+    const size_t from = entry.name.size() + (entry.glued ? 0 : 1);
+    if (line.size() <= from) return "";
+    return line.substr(from, line.find_first_of(" \t", from) - from);
+  }
+  return "";
+}
+
 std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&)) {
   Options values = options;
   std::string text;
@@ -306,8 +227,8 @@ std::string helpText(const Options& options) {
       "usage: {} [options] scene... < records > answers\n"
       "A scene is an octree, RADIANCE scene files, or a '!command' that writes one of them.\n",
       options.program);
-  for (const Group group : kGroups) {
-    text += fmt::format("\n{}:\n", groupName(group));
+  for (const auto& [group, name] : kGroups) {
+    text += fmt::format("\n{}:\n", name);
     for (const OptionEntry& entry : optionTable()) {
       if (entry.group != group || entry.support == Support::refused) continue;
       text += helpLine(entry, values);
@@ -344,39 +265,6 @@ FeatureReport featureReport(std::span<const std::string> wanted, std::span<const
   return report;
 }
 
-std::string manualText() {
-  std::string text;
-  for (const Group group : kGroups) {
-    text += fmt::format(".SS {}\n", groupName(group));
-    for (const OptionEntry& entry : optionTable()) {
-      if (entry.group != group) continue;
-      text += manualEntry(entry, facts(entry));
-    }
-  }
-  return text;
-}
-
-std::string quantitiesText() {
-  constexpr size_t kWidth = 57;  // columns before the unit
-  std::string text;
-  for (const PointQuantity& quantity : pointQuantities()) {
-    const bool isColor = quantity.each != nullptr;
-    const std::string columns = quantity.values == PointQuantity::kOfZones
-                                    ? "3N"
-                                    : fmt::format("{}", quantity.values * (isColor ? 3 : 1));
-    std::string line = fmt::format("{} {:>2}  ", quantity.letter, columns);
-    for (const char c : quantity.definition) {
-      if (c != '\n')
-        line += c;
-      else
-        text += escaped(std::exchange(line, "      ")) + '\n';
-    }
-    if (!quantity.unit.empty()) line = fmt::format("{:<{}}({})", line, kWidth, quantity.unit);
-    text += escaped(line) + '\n';
-  }
-  return text;
-}
-
 std::string companionHelp(const Companion& companion, Options& options) {
   std::string text = fmt::format("usage: {} {}\n\n", options.program, companion.usage);
   for (const OptionEntry& entry : companion.own) text += helpLine(entry, options);
@@ -395,16 +283,6 @@ std::string companionDefaults(const Companion& companion, Options& options) {
                           : (*value)(options) ? entry.remark.substr(0, bar)
                                               : entry.remark.substr(bar + 1));
     }
-  }
-  return text;
-}
-
-std::string companionManual(const Companion& companion, Options& defaults) {
-  std::string text;
-  for (const OptionEntry& entry : companion.own) {
-    const std::string value = valueOf(entry, defaults);
-    text +=
-        manualEntry(entry, unitAndRange(entry) + (value.empty() ? "" : fmt::format("Default: {}. ", value)));
   }
   return text;
 }

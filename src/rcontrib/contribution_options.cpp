@@ -49,111 +49,28 @@ void setFunctions(Options& options, const OptionEntry&, Words words, std::string
 
 std::string noLine(const Options&) { return ""; }
 
-using Add = std::function<void(const OptionEntry&)>;
-
-void addTracking(const Add& add) {
-  add({.name = "-m",
-       .arguments = "mod",
-       .value = Custom{setModifier},
-       .remark = "tracked modifier",
-       .paragraph =
-           "Tracks surfaces with modifier mod: the light that they send along each path, or the coefficient "
-           "of the path (-V), is added up. May be repeated; each record contains the modifiers in this "
-           "order. A modifier that no surface has is a warning, and has zeros. The latest -p, -b, -bn and -o "
-           "before it apply to it."});
-  add({.name = "-M",
-       .arguments = "file",
-       .value = Custom{setModifierFile},
-       .remark = "tracked modifiers of a file",
-       .paragraph =
-           "Like -m, for all modifiers in a file. They are separated by white space; quotes include it in a "
-           "name, as in scenes. The file is searched for along RAYPATH."});
-  add({.name = "-V",
-       .value = +[](Options& o) -> bool& { return own(o).values; },
-       .remark = "output contributions|output coefficients",
-       .paragraph =
-           "Toggles contributions instead of coefficients. A contribution is the part of the radiance "
-           "(W/sr/m2), or of the irradiance (W/m2) under -i and -I, that comes from a modifier. A "
-           "coefficient must be multiplied by the radiance of the modifier to obtain its contribution. "
-           "Under -i and -I it contains a factor pi."});
-  add({.name = "-c",
-       .arguments = "count",
-       .value = +[](Options& o) -> int& { return own(o).raysPerRecord; },
-       .range = {0, 2147483647},
-       .unit = "rays",
-       .remark = "accumulated rays per record",
-       .paragraph = "Number of rays whose mean is a record. 0 writes one record at the end of the input, the "
-                    "sum over all rays."});
-}
-
-void addBins(const Add& add) {
-  add({.name = "-b",
-       .arguments = "bin",
-       .value = +[](Options& o) -> std::string& { return own(o).next.bin; },
-       .remark = "expression of the bin",
-       .paragraph =
-           "Expression of the number of the bin, from 0, to which a ray that meets the modifier is "
-           "added; it is rounded. Px, Py and Pz are the point that the ray hits, Dx, Dy and Dz its unit "
-           "direction, in the world; the other variables of function files may be used as well. Rays "
-           "with a negative number are left out; so are those with a number of at least -bn, with a "
-           "warning.",
-       .line = noLine});
-  add({.name = "-bn",
-       .arguments = "count",
-       .value = Custom{setBins},
-       .remark = "number of bins",
-       .paragraph =
-           "Number of bins of a modifier, as an expression of the definitions by the -e, -f and -p before "
-           "it. Required if the expression of -b is not constant. A constant expression of -b must be 0 and "
-           "has one bin. All modifiers together have at most ten million bins, which take .7 GB."});
-  add({.name = "-p",
-       .arguments = "list",
-       .value = +[](Options& o) -> std::string& { return own(o).next.definitions.parameters; },
-       .remark = "parameters of the bin",
-       .paragraph = "Parameters for -b and -bn: name=number, separated by commas, colons or semicolons. They "
-                    "replace the parameters before them, and definitions of -e and -f by the same names.",
-       .line = noLine});
-  add({.name = "-e",
-       .arguments = "text",
-       .value = Custom{setExpression},
-       .remark = "definitions for bins",
-       .paragraph =
-           "Adds definitions that -b and -bn may use: -e 'MF:4'. They have no effect on the scene."});
-  add({.name = "-f",
-       .arguments = "file",
-       .value = Custom{setFunctions},
-       .remark = "function file for bins",
-       .paragraph =
-           "Adds the definitions of a function file, such as reinhart.cal, that -b and -bn may use. "
-           "The file is searched for along RAYPATH. A blank precedes its name, unlike the letters of "
-           "formats."});
-}
-
-void addOutputs(const Add& add) {
-  add({.name = "-o",
-       .arguments = "spec",
-       .value = +[](Options& o) -> std::string& { return own(o).next.output; },
-       .remark = "output file",
-       .paragraph =
-           "File to which the contributions of the next modifiers are written instead of standard output. "
-           "If spec begins with !, it is a command that reads them. %s in the name is replaced by the "
-           "modifier, and %d (or %04d and the like) by the number of the bin, so that there is a separate "
-           "file for each. In pictures (-fac with -x and -y) this number continues from one modifier to the "
-           "next. Otherwise modifiers with equal file names share a file, side by side.",
-       .line = noLine});
-  add({.name = "-fo",
-       .value = +[](Options& o) -> bool& { return own(o).overwrites; },
-       .remark = "overwrite files|keep files",
-       .paragraph = "Toggles overwriting: a file of -o that exists is replaced. Otherwise it is an error."});
-  add({.name = "-r",
-       .value = +[](Options& o) -> bool& { return own(o).recovers; },
-       .remark = "recover files|start anew",
-       .paragraph =
-           "Toggles recovery: the existing files of -o are completed after the last record that all of them "
-           "have, and the rays of the earlier records are read but not traced. The numbers are those of an "
-           "uninterrupted run: the header of each file must have the options of this run, except for -n, -t, "
-           "-w, -r and -fo. Not with text, nor with -c 0."});
-}
+constexpr OptionEntry kContributionOptions[] = {
+    {{"-m", "mod", "tracked modifier", Group::companion, Custom{setModifier}}},
+    {{"-M", "file", "tracked modifiers of a file", Group::companion, Custom{setModifierFile}}},
+    {{"-V", "", "output contributions|output coefficients", Group::companion,
+      of<&ContributionOptions::values>}},
+    {{"-c", "count", "accumulated rays per record", Group::companion, of<&ContributionOptions::raysPerRecord>,
+      Range{0, 2147483647}, "rays"}},
+    {{"-b", "bin", "expression of the bin", Group::companion,
+      +[](Options& o) -> std::string& { return own(o).next.bin; }},
+     {.line = noLine}},
+    {{"-bn", "count", "number of bins", Group::companion, Custom{setBins}}},
+    {{"-p", "list", "parameters of the bin", Group::companion,
+      +[](Options& o) -> std::string& { return own(o).next.definitions.parameters; }},
+     {.line = noLine}},
+    {{"-e", "text", "definitions for bins", Group::companion, Custom{setExpression}}},
+    {{"-f", "file", "function file for bins", Group::companion, Custom{setFunctions}}},
+    {{"-o", "spec", "output file", Group::companion,
+      +[](Options& o) -> std::string& { return own(o).next.output; }},
+     {.line = noLine}},
+    {{"-fo", "", "overwrite files|keep files", Group::companion, of<&ContributionOptions::overwrites>}},
+    {{"-r", "", "recover files|start anew", Group::companion, of<&ContributionOptions::recovers>}},
+};
 
 // The features that -features lists in addition to those of all programs, in the words of RADIANCE's
 // rcontrib.
@@ -240,14 +157,7 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
 }
 
 const Companion& contributionCompanion() {
-  static const std::vector<OptionEntry> table = [] {
-    std::vector<OptionEntry> entries;
-    for (const auto addOptions : {addTracking, addBins, addOutputs})
-      addOptions([&entries](const OptionEntry& entry) { entries.push_back(entry); });
-    for (OptionEntry& entry : entries) entry.group = Group::companion;
-    return entries;
-  }();
-  static const Companion companion{.own = table,
+  static const Companion companion{.own = kContributionOptions,
                                    .usage = "[options] { -m mod | -M file } ... octree < rays",
                                    .sphereMode = false,
                                    .name = "rcontrib",

@@ -26,7 +26,8 @@ std::string fault(const std::vector<std::string>& words) {
 TEST(ContributionOptions, ManualIsTheGeneratedOne) {
   ContributionOptions defaults;
   contributionCompanion().defaults(defaults);
-  expectManual("rcontrib", companionManual(contributionCompanion(), defaults));
+  manual::expectPage("rcontrib",
+                     {{"OPTIONS", manual::optionsOf(contributionCompanion(), "rcontrib", defaults)}});
 }
 
 TEST(ContributionOptions, DefaultsAreThoseOfRadiance) {

@@ -25,7 +25,8 @@ std::vector<std::string> passedOn(const std::vector<std::string>& words) {
 
 TEST(CompareOptions, ManualIsTheGeneratedOne) {
   CompareOptions defaults;
-  expectManual("rsphere-compare", companionManual(compareCompanion(), defaults));
+  manual::expectPage("rsphere-compare",
+                     {{"OPTIONS", manual::optionsOf(compareCompanion(), "rsphere-compare", defaults)}});
 }
 
 TEST(CompareOptions, AreThoseOfRsphereAndItsOwn) {

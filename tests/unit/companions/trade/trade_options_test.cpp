@@ -21,7 +21,8 @@ TradeOptions parse(std::vector<std::string> words) {
 
 TEST(TradeOptions, ManualIsTheGeneratedOne) {
   TradeOptions defaults;
-  expectManual("rsphere-trade", companionManual(tradeCompanion(), defaults));
+  manual::expectPage("rsphere-trade",
+                     {{"OPTIONS", manual::optionsOf(tradeCompanion(), "rsphere-trade", defaults)}});
 }
 
 TEST(TradeOptions, AreTheirOwn) {
