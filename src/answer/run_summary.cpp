@@ -61,11 +61,6 @@ void RunSummary::add(uint64_t record, const PointAnswer& answer, const PreparedS
   const double mean = photopicOf(answer.mean.color, sampling);
   if (!answer.reached && !answer.isDark)
     missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
-  if (answer.clamped > 0) {
-    const double share = mean > 0 ? answer.clamped / (mean + answer.clamped) : 1;
-    clamped_.add(record, share);
-    billionths_ += static_cast<uint64_t>(1e9 * share);
-  }
 }
 
 void RunSummary::add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared) {
@@ -111,13 +106,6 @@ std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
         "{}",
         sphere.accuracy, missed_.records, records_, sphere.mostOfAllSets(), missed_.worst + 1,
         missed_.most < kAnyError ? fmt::format("{:.3g}%", 100 * missed_.most) : "no light"));
-  if (clamped_.records > 0)
-    texts.push_back(fmt::format(
-        "-Sf {:g} clamped {} of {} points and took {:.3g}% of their light on average; the most is record {}: "
-        "{:.3g}%",
-        sphere.clamp, clamped_.records, records_,
-        1e-7 * static_cast<double>(billionths_) / static_cast<double>(clamped_.records), clamped_.worst + 1,
-        100 * clamped_.most));
   return texts;
 }
 

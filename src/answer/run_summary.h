@@ -30,8 +30,6 @@ class RunSummary {
   //   "UGR is infinite at 3 of 20 eyes; the first is record 7: ..."
   // Points with light where the accuracy of -Sa was not reached:
   //   "-Sa 0.01 was not reached at 3 of 20 points with at most 8192 directions; the worst is record 7: 1.25%"
-  // Points where -Sf removed light:
-  //   "-Sf 0.01 clamped 3 of 20 points and took 1.4% of their light on average; the most is record 7: 2.5%"
   std::vector<std::string> warnings(const AnswerOptions& options, const PreparedScene& prepared) const;
 
  private:
@@ -48,9 +46,6 @@ class RunSummary {
   Some unlit_, far_;
   Some infinite_;  // UGR
   Some missed_;    // -Sa: relative standard errors of the mean brightness
-  Some clamped_;   // -Sf: fractions of the unclamped light that were removed
-  // The sum of these fractions as a whole number, so that it does not depend on the order of summation.
-  uint64_t billionths_ = 0;
 };
 
 // Adds the sensors that `answer` answers to the summary. Returns `answer` itself for rays other than those of

@@ -381,7 +381,6 @@ void checkGlare(const Options& options) {
   refuse(sphere.basicRadiance, "-Sb", "glare is computed from radiance, not from basic radiance");
   refuse(sphere.zones > 0, "-Sz", "zones apply to mean radiance");
   refuse(sphere.accuracy > 0, "-Sa", "increase -Sn to reduce the errors");
-  refuse(sphere.clamp > 0, "-Sf", "the clamp applies to mean radiance");
   refuse(sphere.weights != Weights::silhouettes, "-Sw",
          "glare needs -Sw c, which integrates light sources separately");
   refuse(!options.picture.empty(), "-Si", "pictures show the light at points, not the view of an eye");
@@ -398,8 +397,6 @@ void checkTogether(Options& options, bool mostGiven) {
     commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");
   SphereOptions& sphere = options.sphere;
   if (sphere.accuracy >= 1) commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
-  if (sphere.clamp > 0 && sphere.weights != Weights::silhouettes)
-    commandLineError("-Sf", "needs -Sw c, which integrates light sources separately");
   options.ray.leastForPatches = sphere.raysForPatches();
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);

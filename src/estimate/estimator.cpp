@@ -63,7 +63,7 @@ void addAll(const std::vector<SharedError>& more, double share, std::vector<Shar
 // Sums over the sets of one half (two_halves.h), or of both.
 struct Half {
   Moments moments;
-  Irradiance excess, clamped;
+  Irradiance excess;
   Variance variance;
   SharedError shared;
   ZoneVariances ofZones;
@@ -74,7 +74,6 @@ struct Half {
   void add(const SampledSet& set, const Moments& ofSet) {
     moments.add(ofSet, 1);
     excess += set.excess.total;
-    clamped += set.clamped;
     variance += set.variance;
     shared.add(set.shared, 1);
     ofZones.add(set.ofZones, 1);
@@ -83,7 +82,6 @@ struct Half {
   void add(const Half& other, double share) {
     moments.add(other.moments, share);
     excess += other.excess * share;
-    clamped += other.clamped * share;
     variance += other.variance * (share * share);
     shared.add(other.shared, share);
     ofZones.add(other.ofZones, share * share);
@@ -300,7 +298,6 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   answer.brightnessError = error.brightness;
   if (base_.zones && base_.neighbours)
     answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling, sharedError());
-  answer.clamped = photopicOf(all.clamped.color, base_.sampling) / (4 * std::numbers::pi);
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;

@@ -8,7 +8,6 @@
 #include "estimate/tuning.h"
 #include "glances/tuning.h"
 #include "openings/tuning.h"
-#include "points/clamp.h"
 #include "silhouettes/source_variance.h"
 #include "silhouettes/tuning.h"
 #include "sphere/directions.h"
@@ -58,12 +57,6 @@ SampledSet joined(std::span<const SeenSources::Sample> toImages, const SampledSe
   return all;
 }
 
-Irradiance totalOf(const SampledSet& set) {
-  Irradiance total = set.excess.total;
-  for (const DirectionSample& s : set.samples) total += irradianceFrom(s.value, s.solidAngle);
-  return total;
-}
-
 }  // namespace
 
 SilhouetteWeights::SilhouetteWeights(const SphereTracing& tracing, const SphereOptions& options,
@@ -92,8 +85,6 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   sampled.sharedByZone = std::move(view.glanced.sharedByZone);
   sampled.ofZones = std::move(view.glanced.ofZones);
   sampled.litGlances = view.glanced.lit;
-  if (options_.clamp > 0)
-    sampled.clamped = clampContributions(othersOf, totalOf(sampled), options_.clamp, base_.sampling);
   sampled.variance = view.glanced.variance;
   if (base_.neighbours)
     sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));

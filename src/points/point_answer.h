@@ -21,7 +21,6 @@ struct PointAnswer {
   Irradiance cylindricalIrradiance;  // C  (1/pi) integral of L sin(angle to z)
   Irradiance facing[6];              // H  irradiances of the six faces, +x -x +y -y +z -z
   V3d lightVector{0, 0, 0};          // u  integral of L d, of brightness
-  double clamped = 0;                // brightness that -Sf removed from the mean, W/sr/m2
   size_t directions = 0;             // k
   // S  (1/pi) integral of L sin(angle to z) (1 + cos(azimuth to `towards`)): of the curved surface of a half
   // cylinder. towards: unit, horizontal.

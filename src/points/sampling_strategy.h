@@ -46,7 +46,6 @@ struct SampledSet {
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
   Moments excess;               // light found by glances, minus the light of glances along samples
                                 // (DirectionSample::glanced); 0 without glances
-  Irradiance clamped;           // light that -Sf removed from moments().total
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // error due to light vertices, not in `variance`
   ZoneVariances ofZones;        // `variance` by zone

@@ -22,7 +22,6 @@ struct SphereOptions {
   int mostForAccuracy = 0;                      // limit for all sets of -Sa, if it is larger than -Sx
   double densityFactor = 1;                     // -Sk
   double accuracy = 0;                          // -Sa  0: off
-  double clamp = 0;                             // -Sf  largest share of one direction in the mean; 0: off
   Weights weights = Weights::silhouettes;       // -Sw
   bool basicRadiance = false;                   // -Sb
   bool everyDirection = false;                  // -Sd

@@ -31,7 +31,6 @@ struct Case {
   double accuracy = 0;  // -aa
   Weights weights = Weights::silhouettes;
   double wanted = 0;  // -Sa
-  double clamp = 0;   // -Sf
 };
 
 PointAnswer answer(const std::string& text, const Names& goals, bool separate, const Case& how) {
@@ -46,7 +45,6 @@ PointAnswer answer(const std::string& text, const Names& goals, bool separate, c
   o.mostDirections = 1024;
   o.accuracy = how.wanted;
   o.mostForAccuracy = 8192;
-  o.clamp = how.clamp;
   const SphereEstimator estimator(*setting.transport, o, true);
   SphereEstimator::Workspace workspace(estimator);
   return estimator.estimate(V3d(2.2, 1.4, 2.3), workspace);
@@ -93,8 +91,7 @@ std::vector<Case> cases() {
           {"interpolated light", kWoven, .2, Weights::voronoi},
           {"equal weights", kMirrors, 0, Weights::homogeneous},
           {"cells", kMirrors, 0, Weights::voronoi},
-          {"an accuracy", kMirrors, 0, Weights::silhouettes, .02},
-          {"a clamp", kCrystal, 0, Weights::silhouettes, 0, .01}};
+          {"an accuracy", kMirrors, 0, Weights::silhouettes, .02}};
 }
 
 // Lamps, one of them with a pattern, a spot, a glow, an illum and a sky behind a window.
@@ -138,7 +135,6 @@ void expectParts(const std::string& text, const Names& goals, size_t contributor
   for (int i = 0; i < 6; ++i)
     expectSameColor(plain.facing[i].color, Color(divided.facing[i].color.rgb()), "face", tolerance);
   expectSameColor(plain.standardError.color, Color(divided.standardError.color.rgb()), "error", tolerance);
-  EXPECT_NEAR(plain.clamped, divided.clamped, tolerance * plain.clamped);
 }
 
 TEST(PartsOfContributors, OfGoalsAddUpToTheAnswerWithoutThem) {
