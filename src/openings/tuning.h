@@ -70,7 +70,8 @@ struct Openings {
   // Regardless of brightness, one side is the bright side of an opening if two conditions hold: at least
   // kMoreSky times as much unreflected sky light arrives from it as from the other side, and sky light is at
   // least kLeastSky of all light from it. Chosen by experiment. Sunlit blinds beside a pane are as bright as
-  // the sky on its other side, but little sky is seen through them.
+  // the sky on its other side, but little sky is seen through them. For a hole, light of places under the
+  // open sky is sky light, too (an open window below an overhang).
   RSPHERE_TUNED(Openings, double, kMoreSky, 3);
   RSPHERE_TUNED(Openings, double, kLeastSky, .1);
   // Two holes are treated as one opening if they are parallel (cosine of the angle at least kParallel) and

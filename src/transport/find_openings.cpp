@@ -31,7 +31,9 @@ bool hasPane(const PreparedScene& prepared, const Rectangle& hole) {
 // Light that a pane or a hole receives from one side: mean brightness over the hemisphere (W/sr/m2).
 struct Seen {
   double all = 0;
-  double sky = 0;  // from the sky, neither reflected nor attenuated by panes
+  // From the sky, neither reflected nor attenuated by panes. For a hole, also from places under the open sky:
+  // behind an open window, an overhang or blinds may hide the sky itself.
+  double sky = 0;
 };
 
 // Whether `one` is the bright side of an opening.
@@ -50,12 +52,18 @@ class Probe {
   Probe(const PreparedScene& prepared, double lift)
       : t_(prepared), tracer_(prepared, noCaches_, Aims{}), lift_(lift) {}
 
-  // The light that comes through the rectangle from the hemisphere around `normal`, one of its two normals.
-  Seen through(const Rectangle& r, const V3d& normal) {
+  // The light that comes through an opening from the hemisphere around `normal`, one of its two normals.
+  Seen through(const Opening& o, const V3d& normal) {
     Seen seen;
-    look(r, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t seed) {
-      seen.all += brightness(tracer_.glimpse(point, direction, seed)) / tuning::Caps::kProbes;
-      seen.sky += skySeen(point, direction) / tuning::Caps::kProbes;
+    look(o, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t number) {
+      const double bright = brightness(tracer_.glimpse(point, direction, number));
+      const auto last = beyondPanes(t_.scene(), t_.tracer(), point, direction,
+                                    [&](const Surface& surface) { return lightPasses(t_, surface); });
+      seen.all += bright / tuning::Caps::kProbes;
+      if (last && last->hit.surface == kNone)
+        seen.sky += brightness(tracer_.glimpse(last->origin, direction, 0)) / tuning::Caps::kProbes;
+      else if (last && o.isHole && isUnderSky(*last, direction, number))
+        seen.sky += bright / tuning::Caps::kProbes;
     });
     return seen;
   }
@@ -89,11 +97,13 @@ class Probe {
     }
   }
 
-  double skySeen(const V3d& origin, const V3d& direction) {
-    const auto last = beyondPanes(t_.scene(), t_.tracer(), origin, direction,
-                                  [&](const Surface& surface) { return lightPasses(t_, surface); });
-    if (!last || last->hit.surface != kNone) return 0;
-    return brightness(tracer_.glimpse(last->origin, direction, 0));
+  // Whether a random direction from a place that is hit leads to the sky.
+  bool isUnderSky(const LastPart& last, const V3d& direction, uint64_t number) const {
+    const V3d& n = last.hit.normal;
+    const Imath::V2d to = evenly(number, .7, .9);
+    const V3d next = diffuseDirection(n.dot(direction) > 0 ? -n : n, to.y, to.x);
+    const V3d place = last.origin + last.hit.distance * direction;
+    return t_.tracer().nearest(place, next, kFarAway, last.hit.surface).surface == kNone;
   }
 
   const PreparedScene& t_;
