@@ -109,6 +109,7 @@ class LightVertices::Path {
   struct Course {
     double firstLength = 0;          // of the first segment, world units; 0 if the path hit nothing
     size_t met = 0, metUnknown = 0;  // numbers of surfaces that were hit
+    bool leftToEye = false;          // ended at a mirror whose image of the source is not known
   };
   // where: number from 0 to 1 that selects the source, with probabilities proportional to power.
   Course send(double where);
@@ -118,7 +119,7 @@ class LightVertices::Path {
   void leaveSky(double where);
   bool entersAgain(const Hit& hit) const;
   bool passPane(const Hit& hit);
-  bool meetMirror(const Hit& hit);
+  bool meetMirror(const Hit& hit, Course& course);
   void arrive(const PlainPlace& at);
   void addVisible(const PlainPlace& at, double reflected);
   bool reflect(const PlainPlace& at);
@@ -171,7 +172,7 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
     if (hit.perturbation != V3d(0, 0, 0)) break;
     const PlainFinish& finish = all_.surfaces_.finishOf(hit.surface);
     if (finish.pane || finish.mirror) {
-      if (finish.pane ? passPane(hit) : meetMirror(hit)) continue;
+      if (finish.pane ? passPane(hit) : meetMirror(hit, course)) continue;
       break;
     }
     const PlainPlace at =
@@ -256,11 +257,14 @@ bool LightVertices::Path::passPane(const Hit& hit) {
 }
 
 // Reflects the path at a mirror; returns false if it ends. It ends at the black back of a mirror. A path that
-// comes directly from its source also ends at curved mirrors, which make no images of sources.
-bool LightVertices::Path::meetMirror(const Hit& hit) {
-  if (hit.cosine <= 0 ||
-      (past_.fromSource && all_.starts_.onSources.imageOf(past_.source, hit.surface) == kNone))
-    return false;
+// comes directly from its source also ends at curved mirrors, which make no images of sources, and at mirrors
+// whose image of the source is left to paths from the eye.
+bool LightVertices::Path::meetMirror(const Hit& hit, Course& course) {
+  if (hit.cosine <= 0) return false;
+  const LightId image =
+      past_.fromSource ? all_.starts_.onSources.imageOf(past_.source, hit.surface) : LightId();
+  course.leftToEye = image != kNone && !all_.surfaces_.knows(image);
+  if (course.leftToEye || (past_.fromSource && image == kNone)) return false;
   const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).mirror,
                                plainInteraction(beam_.direction, hit.normal, false));
   const SharpPath& next = s.sharp.path[0];
@@ -271,7 +275,7 @@ bool LightVertices::Path::meetMirror(const Hit& hit) {
   beam_.start = hit.surface;
   beam_.direction = next.direction;
   if (past_.fromSource) {
-    past_.source = all_.starts_.onSources.imageOf(past_.source, hit.surface);
+    past_.source = image;
     past_.way = LightVertex::unweighed;
     return true;
   }
@@ -386,16 +390,18 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
   near_ = measured(prepared, paths, seed, outdoors);
   const auto count = static_cast<double>(paths);
   size_t met = 0, metUnknown = 0;
+  bool leftToEye = surfaces.portals().empty() && !surfaces.coverage().allSources;
   for (size_t i = 0; i < paths; ++i) {
     // Stratified, so that batches have nearly equal numbers of paths from each source.
     const double where = (static_cast<double>(i) + Random(mixBits(seed ^ i)).uniform()) / count;
     const Path::Course course = Path(prepared, *this, i, seed, outdoors).send(where);
     met += course.met;
     metUnknown += course.metUnknown;
+    leftToEye = leftToEye || course.leftToEye;
   }
   sort();
   visible_.sort(prepared);
-  if (met > 0 && surfaces_.coverage().allSources)
+  if (met > 0 && !leftToEye)
     shareOfRest_ = std::clamp(
         static_cast<double>(metUnknown) / static_cast<double>(met) / tuning::VertexLight::kFollowed,
         tuning::VertexLight::kFollowed / 2, 1.);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/surface_point.h"
+#include "openings/tuning.h"
 #include "shade/scattering.h"
 
 namespace rsphere {
@@ -99,7 +101,21 @@ void PlainSurfaces::findSources() {
     knownSources_[i] = isKnown(i);  // images come after their sources, which isKnown() looks up
     coverage_.anySource = coverage_.anySource || knownSources_[i];
     coverage_.allSources = coverage_.allSources && knownSources_[i];
+    coverage_.allLit = coverage_.allLit && (knownSources_[i] || !isLit(lights[i]));
   }
+}
+
+// False for the image of a distant source in a mirror that it does not reach: at none of some points.
+bool PlainSurfaces::isLit(const LightSource& light) const {
+  if (!light.isVirtual() || !light.isDistant()) return true;
+  const LightSource& source = prepared_.lights().all()[light.relayed];
+  if (source.isVirtual()) return isLit(source);
+  Random random(light.surface.index());
+  for (int i = 0; i < tuning::Caps::kProbes; ++i) {
+    const SurfacePoint at = samplePoint(scene_.surfaces[light.surface].shape, scene_.vertices, random);
+    if (!isBlack(passingToSource(at.point, source.center, kFarAway, light.surface))) return true;
+  }
+  return false;
 }
 
 static_assert(kLightForms == 8, "Are samples spread over all of it?");
@@ -155,7 +171,7 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!portals_.empty()) {
     if (hasMist(scene_)) return "mist";
-    return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
+    return coverage_.allLit && !scene_.importance ? nullptr : "sources that are not known";
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!coverage_.anySource) return "no known sources";

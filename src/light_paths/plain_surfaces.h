@@ -58,8 +58,11 @@ class PlainSurfaces {
   struct Coverage {
     bool anySource = false;  // at least one source is known
     bool allSources = true;  // all sources are known
-    bool all = true;         // all light: all surfaces and sources are known
-    bool allDirect = true;   // all direct light of known surfaces
+    // All but images of distant sources in mirrors that seem to be in the shade; what light these have is
+    // left to paths from the eye.
+    bool allLit = true;
+    bool all = true;        // all light: all surfaces and sources are known
+    bool allDirect = true;  // all direct light of known surfaces
     // Some surface emits light that shadow rays miss, wholly or in part; only a ray that hits the surface
     // finds it.
     bool glows = false;
@@ -107,6 +110,7 @@ class PlainSurfaces {
   Sight straight(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   void findSources();
   bool isKnown(LightId source) const;
+  bool isLit(const LightSource& source) const;
   void findSurfaces();
   Color patternFrom(ModifierId first, const FunctionPoint& here, FunctionScratch& scratch) const;
   Color patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit, FunctionScratch& scratch) const;

@@ -97,6 +97,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "void mirror silver 0 0 3 .9 .9 .9\n"
                 "silver polygon m 0 0 12 .2 3.9 .2 3.8 3.9 .2 3.8 3.9 2.8 .2 3.9 2.8\n",
             1},
+        // The sun, which does not reach the mirror, has an image in it.
+        Way{"MirrorInTheShade",
+            kRoom + kPane + kSky + kSun +
+                "void mirror silver 0 0 3 .9 .9 .9\n"
+                "silver polygon m 0 0 12 3.1 .01 .5 3.9 .01 .5 3.9 .01 2.5 3.1 .01 2.5\n"},
         Way{"ChromeBall",
             kRoom + kPane + kSky + kSun +
                 "void metal chrome 0 0 5 .9 .9 .9 1 0\nchrome sphere b 0 0 4 1.5 2.5 1.2 .4\n"}),
@@ -108,6 +113,18 @@ TEST(Daylit, PointsOutdoorsKeepPathsFromTheEye) {
   ASSERT_TRUE(surfaces);
   EXPECT_TRUE(suitsDaylight(V3d(2, 2, 1), *surfaces, 2));
   EXPECT_FALSE(suitsDaylight(V3d(2, -5, 1), *surfaces, 2));
+}
+
+// The sun has an image in a mirror that faces the wall behind it, but does not reach the mirror. Its unused
+// image kept paths from both ends away, so that answers had 2 to 4 times the noise.
+TEST(Daylit, ImagesOfTheSunMatterOnlyWhereItShinesOnTheMirror) {
+  const std::string light = kSky + kSun + "void mirror silver 0 0 3 .9 .9 .9\n";
+  const std::string facesWall = "silver polygon m 0 0 12 3.1 .01 .5 3.9 .01 .5 3.9 .01 2.5 3.1 .01 2.5\n";
+  const std::string facesSun = "silver polygon m 0 0 12 1 3.9 .2 3.8 3.9 .2 3.8 3.9 1.8 1 3.9 1.8\n";
+  const std::string inSun = "silver polygon m 0 0 12 1 .2 .1 3 .2 .1 3 2.2 .1 1 2.2 .1\n";
+  EXPECT_TRUE(surfacesOf(settingOf(kRoom + kPane + light + facesWall, 2)));
+  EXPECT_TRUE(surfacesOf(settingOf(kRoom + kPane + light + facesSun, 2)));
+  EXPECT_FALSE(surfacesOf(settingOf(kRoom + kPane + light + inSun, 2)));
 }
 
 TEST(Daylit, LampsKeepPathsFromTheEye) {
