@@ -120,7 +120,7 @@ TEST(RecordReader, RecordsAcrossBlocksAreWhole) {
     const double x = static_cast<double>(random()) / 1024 - 1e6;
     expected.push_back(x);
     char word[64];
-    std::snprintf(word, sizeof word, i % 3 == 0 ? "+%.17g\n" + (x < 0) : "%.17g ", x);
+    std::snprintf(word, sizeof word, i % 3 != 0 ? "%.17g " : x < 0 ? "%.17g\n" : "+%.17g\n", x);
     text += word;
   }
   for (const size_t most : {1u, 7u, 100000u}) {
