@@ -2,15 +2,13 @@
 // Tuning constants (base/tuned.h). They affect variance and time, and Stopping slightly affects the mean.
 #include <cstddef>
 
-#include "base/tuned.h"
-
 namespace rsphere::tuning {
 
 // The strategy -Sw c as a whole (silhouette_weights.cpp).
 struct SilhouetteWeights {
   // Base directions for each direction to images of light sources; the latter are at least
   // SeenSources::kUsualRays. Chosen by experiment. Insensitive.
-  RSPHERE_TUNED(SilhouetteWeights, size_t, kBaseDirectionsPerRayToImages, 4);
+  static constexpr size_t kBaseDirectionsPerRayToImages = 4;
 };
 
 // The end of -Sa (two_halves.cpp).
@@ -18,7 +16,7 @@ struct Stopping {
   // Each half requests sets until its standard error is below this multiple of the requested one: measured.
   // One answer in 50, instead of 25, then needs further sets because its own error estimate is too large.
   // Those sets cause the remaining bias. Insensitive.
-  RSPHERE_TUNED(Stopping, double, kMargin, .95);
+  static constexpr double kMargin = .95;
   // Cap on the ratio between the numbers of sets of the two halves: derived. If a set finds something very
   // bright, the other half requests many sets. With the cap, the half of the bright set gets some as well,
   // which reduces the weight of that set sooner. The ratio must exceed 1, because with 1 the number of sets

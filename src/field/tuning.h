@@ -14,7 +14,7 @@ struct Fields {
   RSPHERE_TUNED(Fields, double, kOpen, .1);
   // Number of finer levels that are tried if a place sees no site or patch. Chosen by experiment. 1 and 3
   // have no effect beyond noise (sensors by sun).
-  RSPHERE_TUNED(Fields, int, kFinerWhereHidden, 2);
+  static constexpr int kFinerWhereHidden = 2;
 };
 
 // The irradiance cache at the first diffuse surface (irradiance_field.cpp).
@@ -35,7 +35,7 @@ struct IrradianceField {
   RSPHERE_TUNED(IrradianceField, double, kFinestInGap, .25);
   // -aa divided by this is the allowed relative error of an interpolation. Chosen by experiment. In RADIANCE,
   // -aa bounds the error, and the mean error is smaller. Insensitive.
-  RSPHERE_TUNED(IrradianceField, double, kAllowed, 2.4);
+  static constexpr double kAllowed = 2.4;
   // If the error of a level of cells is at most the allowed one, that level gives the whole answer. If the
   // error is this many times the allowed one or more, the level is not used. In between it is blended with
   // the next level, to avoid visible edges. The allowed error grows by this factor from level to level,
@@ -45,21 +45,21 @@ struct IrradianceField {
   // distance d is predicted as this constant times the larger of two quantities: the relative change that the
   // gradients predict over d; and this constant times (d / R)^2, where R is the harmonic mean distance of the
   // surroundings. Insensitive.
-  RSPHERE_TUNED(IrradianceField, double, kNoneAbove, 1.5);
+  static constexpr double kNoneAbove = 1.5;
 };
 
 // Interpolation between the sites around a place (site_interpolation.cpp).
 struct SiteInterpolation {
   // Differences between sites below this number of standard errors are treated as noise. Chosen by
   // experiment. Insensitive.
-  RSPHERE_TUNED(SiteInterpolation, double, kChance, .7);
+  static constexpr double kChance = .7;
   // The error of an interpolation is predicted from three quantities at two sites:
   // - the change of the gradient (site_interpolation.cpp);
   // - the difference of their light, divided by this;
   // - the part of that difference that the gradients do not predict, also divided by this.
   // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by
   // experiment. Insensitive.
-  RSPHERE_TUNED(SiteInterpolation, double, kByStep, 5);
+  static constexpr double kByStep = 5;
 };
 
 // The coarse solution beyond the first diffuse surface (coarse_solution.cpp). "Measured" values were chosen

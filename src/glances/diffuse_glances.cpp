@@ -10,7 +10,6 @@
 #include "glances/tuning.h"
 #include "light/surface_point.h"
 #include "light_paths/tuning.h"
-#include "openings/tuning.h"
 #include "shade/scattering.h"
 #include "sphere/directions.h"
 
@@ -43,7 +42,7 @@ size_t poolsFor(const SphereOptions& options) {
 // The error due to light vertices is estimated from the differences between batches of light paths. Each
 // batch has enough paths to know its mean within 3% if the standard deviation of a path equals the mean.
 size_t pathsFor(const SphereOptions& options, bool daylit) {
-  const double least = LightVertex::kBatches * static_cast<double>(tuning::Caps::kAsked);
+  const double least = LightVertex::kBatches * static_cast<double>(tuning::DiffuseGlances::kLeastPaths);
   const double finer = options.accuracy > 0 ? SphereOptions::kUsualAccuracy / options.accuracy : 0;
   const double paths = std::max(least, (daylit ? tuning::DiffuseGlances::kDaylitPaths
                                                : tuning::DiffuseGlances::kPathsPerDirection) *

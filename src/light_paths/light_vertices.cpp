@@ -6,7 +6,6 @@
 
 #include "light_paths/tuning.h"
 #include "light_paths/vertex_clusters.h"
-#include "openings/tuning.h"
 #include "shade/scattering.h"
 #include "spots/light_particles.h"
 
@@ -165,7 +164,7 @@ class LightVertices::Path {
 LightVertices::Path::Course LightVertices::Path::send(double where) {
   Course course;
   if (!leave(where)) return course;
-  for (size_t hits = 0; hits < tuning::Caps::kAsked && brightness(beam_.power) > 0; ++hits) {
+  for (size_t hits = 0; hits < tuning::LightVertices::kMostHits && brightness(beam_.power) > 0; ++hits) {
     const Hit hit = prepared_.tracer().nearest(beam_.origin, beam_.direction, kFarAway, beam_.start);
     if (hit.surface == kNone || entersAgain(hit)) break;
     beam_.length += hit.distance;
@@ -410,7 +409,7 @@ LightVertices::LightVertices(const PreparedScene& prepared, const PlainSurfaces&
 // The distances depend on the size of the room, which is estimated by the mean length of first segments.
 NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, uint64_t seed,
                                   const OutdoorParts* outdoors) {
-  const size_t tried = std::min(paths, tuning::Caps::kAsked);
+  const size_t tried = std::min(paths, tuning::LightVertices::kMeasured);
   double sum = 0;
   size_t met = 0;
   for (size_t i = 0; i < tried; ++i) {

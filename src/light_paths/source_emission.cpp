@@ -5,7 +5,6 @@
 
 #include "base/constants.h"
 #include "light_paths/tuning.h"
-#include "openings/tuning.h"
 #include "spots/light_particles.h"
 
 namespace rsphere {
@@ -152,14 +151,14 @@ double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;
   double sum = 0;
-  for (size_t i = 0; i < tuning::Caps::kAsked; ++i) {
+  for (size_t i = 0; i < tuning::LightVertices::kMeasured; ++i) {
     const Way tried = way(source, random, scratch);
     sum += std::max(0., brightness(tried.radiance)) * tried.weight;
   }
   const Scene& scene = prepared_.scene();
   const double plain =
       brightness(sourceRadiance(scene, scene.surfaces[prepared_.lights().all()[source].surface]));
-  return kPi * senders_[source].area * (sum + plain) / tuning::Caps::kAsked;
+  return kPi * senders_[source].area * (sum + plain) / tuning::LightVertices::kMeasured;
 }
 
 double SourceEmission::divergence(LightId source, double distance) const {

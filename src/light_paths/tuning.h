@@ -21,6 +21,13 @@ struct LightVertices {
   // mm between a sheet of paper and the goal. Measured for this use: with .01, the error around the goal is
   // 10% larger, in a tenth less time; .4 has no effect beyond noise.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
+  // Light paths that measure the mean distance from the sources to the first surfaces, and directions that
+  // estimate the power of a source with a pattern or a cone. If single values vary as much as their mean,
+  // such means are known within 3%.
+  static constexpr size_t kMeasured = 1024;
+  // Cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
+  // nearly all paths earlier.
+  static constexpr size_t kMostHits = 1024;
 };
 
 // The light of vertices at a place (vertex_light.h).

@@ -13,19 +13,11 @@ struct Caps {
   // - the parts of sources whose highlights one ball shows.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
   // more. Chosen by experiment: each aimed ray evaluates all their densities. Insensitive.
-  RSPHERE_TUNED_ROOM(Caps, size_t, kAimed, 64);
+  static constexpr size_t kAimed = 64, kAimedRoom = kAimed;
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept.
   // Insensitive.
-  //
-  // The constant is also
-  // - the number of light paths that measure the mean distance from the sources to the first surfaces,
-  // - the least number of light paths in a batch,
-  // - the number of directions that estimate the power of a source with a pattern or a cone. If single values
-  //   vary as much as their mean, these means are known within 3%;
-  // - the cap on the surfaces that a light path hits between facing mirrors. Russian roulette ends nearly all
-  //   paths earlier.
-  RSPHERE_TUNED(Caps, size_t, kAsked, 1024);
+  static constexpr size_t kAsked = 1024;
   // Number of rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and
   // (as a minimum) to each opening that may matter there. Chosen by experiment. A mean is then known within
   // 18% if single values vary as much as their mean.

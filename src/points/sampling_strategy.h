@@ -43,12 +43,12 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // light found by glances, minus the light of glances along samples
-                                // (DirectionSample::glanced); 0 without glances
-  Variance variance;            // of moments().total; 0 unless standard errors are wanted
-  SharedError shared;           // error due to light vertices, not in `variance`
-  ZoneVariances ofZones;        // `variance` by zone
+  std::vector<TracedRay> rays;            // of the samples, in the same order; kept with -Sd only
+  Moments excess;                         // light found by glances, minus the light of glances along samples
+                                          // (DirectionSample::glanced); 0 without glances
+  Variance variance;                      // of moments().total; 0 unless standard errors are wanted
+  SharedError shared;                     // error due to light vertices, not in `variance`
+  ZoneVariances ofZones;                  // `variance` by zone
   std::vector<SharedError> sharedByZone;  // `shared` by zone; empty without zones
   size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
 

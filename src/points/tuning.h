@@ -30,14 +30,14 @@ struct ErrorEstimate {
   //   lamp of .1 m, half hidden                 .69          .98
   //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
   // Insensitive.
-  RSPHERE_TUNED(ErrorEstimate, double, kEvenParts, .5);
+  static constexpr double kEvenParts = .5;
   // The factor like kEvenSet for n dynamic directions to several targets, parts of one image, is 1 / (1 +
   // n^1/2 / kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by
   // experiment. n is the effective number of directions that cause the variance. With the number of all
   // directions, errors were understated beside a chrome ball, where 1 to 5 of 3400 directions find twice
   // mirrored lamps: the actual deviation was 1.6 times the stated one, and 2% of the answers were off by more
   // than six stated errors. With the effective number, the ratio is .9, and no answer is. Insensitive.
-  RSPHERE_TUNED(ErrorEstimate, double, kEvenRun, 8);
+  static constexpr double kEvenRun = 8;
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
   // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction
   // that it covers is 1/2 / (n + 1) (Bayes' theorem, with Jeffreys' prior for a probability).

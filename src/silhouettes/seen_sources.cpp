@@ -132,7 +132,8 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
   }
   std::sort(mirrors.begin(), mirrors.end());
   for (const auto& [area, surface] : mirrors)
-    if ((mirrors_.size() + 1) * sources_.size() <= kMostPlacedObjects) mirrors_.push_back(surface);
+    if ((mirrors_.size() + 1) * sources_.size() <= tuning::SpecialObjects::kMostPlacedObjects)
+      mirrors_.push_back(surface);
 }
 
 bool SeenSources::isOne(const ShownSource& s, const std::vector<Image>& images) const {

@@ -8,17 +8,19 @@
 #include <map>
 
 #include "base/overloaded.h"
+#include "silhouettes/tuning.h"
 
 namespace rsphere {
 namespace {
 
 struct Irregularity {
   static double lobe(double share, double roughness) {
-    const double wide = roughness / kSharpRoughness;
+    const double wide = roughness / tuning::SpecialObjects::kSharpRoughness;
     return share / (1 + wide * wide);
   }
   static double lobe(double share, double roughnessAlong, double roughnessAcross) {
-    const double along = roughnessAlong / kSharpRoughness, across = roughnessAcross / kSharpRoughness;
+    const double along = roughnessAlong / tuning::SpecialObjects::kSharpRoughness,
+                 across = roughnessAcross / tuning::SpecialObjects::kSharpRoughness;
     return share / std::sqrt((1 + along * along) * (1 + across * across));
   }
   static double lobe(const WgmdFunction::Lobe& m) {
@@ -40,17 +42,17 @@ struct Irregularity {
   }
   double operator()(const FunctionScatterer& m) const {
     return lobe(std::max(m.specularity, (1 - m.specularity) * m.transmissivity * m.transmittedSpecular),
-                kSharpRoughness);
+                tuning::SpecialObjects::kSharpRoughness);
   }
   double operator()(const BrtdFunction& m) const {
     const double sharp = std::clamp(std::max(m.mostReflected, m.mostTransmitted), 0., 1.);
-    return m.directional ? std::max(sharp, lobe(1, kSharpRoughness)) : sharp;
+    return m.directional ? std::max(sharp, lobe(1, tuning::SpecialObjects::kSharpRoughness)) : sharp;
   }
   double operator()(const WgmdFunction& m) const { return std::max(lobe(m.reflected), lobe(m.transmitted)); }
   double operator()(const BsdfMaterial& m) const { return m.aperture ? 1 : 0; }
   double operator()(const Dielectric&) const { return 1; }
   double operator()(const Interface&) const { return 1; }
-  double operator()(const Glass&) const { return kPane; }
+  double operator()(const Glass&) const { return tuning::SpecialObjects::kPane; }
   double operator()(const Mirror&) const { return 1; }
   double operator()(const Prism&) const { return 1; }
   double operator()(const Antimatter&) const { return 0; }
@@ -72,7 +74,7 @@ Shown mostIrregular(const Scene& scene, ModifierId modifier);
 // it, like a pane.
 Shown seenOf(const Scene& scene, const Modifier& illum, const Alternate& alternate) {
   if (alternate.kind == Alternate::Kind::modifier) return mostIrregular(scene, alternate.modifier);
-  return {&illum, kPane};
+  return {&illum, tuning::SpecialObjects::kPane};
 }
 
 Shown mostIrregular(const Scene& scene, ModifierId modifier) {
@@ -99,7 +101,8 @@ Shown mostIrregular(const Scene& scene, ModifierId modifier) {
 
 std::string why(const Material& material, double irregularity) {
   const auto reason = [&](const std::string& given) {
-    return fmt::format("{}: irregularity {:.3g} of at least {:g}", given, irregularity, kSpecialIrregularity);
+    return fmt::format("{}: irregularity {:.3g} of at least {:g}", given, irregularity,
+                       tuning::SpecialObjects::kSpecialIrregularity);
   };
   const auto transmitted = [](const auto& m) { return m.transmissivity * m.transmittedSpecular; };
   return match(
@@ -135,7 +138,7 @@ class Finder {
   std::vector<SpecialObject> find() {
     size_t placedObjects = 0;
     for (const Surface& s : scene_.outermost()) placedObjects += contentsOf(s).objects;
-    const bool each = placedObjects <= kMostPlacedObjects;
+    const bool each = placedObjects <= tuning::SpecialObjects::kMostPlacedObjects;
     for (const SurfaceId i : scene_.outermostIds()) {
       if (each || contentsOf(scene_.surfaces[i]).objects == 0)
         add(i, nullptr);
@@ -158,7 +161,7 @@ class Finder {
   }
 
   void count(Contents& contents, SurfaceId surface, size_t objects, double irregularity) const {
-    if (irregularity < kSpecialIrregularity) return;
+    if (irregularity < tuning::SpecialObjects::kSpecialIrregularity) return;
     contents.objects += objects;
     if (irregularity > contents.irregularity) {
       contents.mostIrregular = surface;
@@ -198,8 +201,9 @@ class Finder {
 
   void addObject(SurfaceId surface, double irregularity, std::optional<PlacedShape> placedShape,
                  bool several = false) {
-    if (irregularity >= kSpecialIrregularity)
-      objects_.push_back({surface, irregularity, irregularity * kDirectionsPerSr * factor_,
+    if (irregularity >= tuning::SpecialObjects::kSpecialIrregularity)
+      objects_.push_back({surface, irregularity,
+                          irregularity * tuning::SpecialObjects::kDirectionsPerSr * factor_,
                           std::move(placedShape), several});
   }
   void addBall(SurfaceId surface, double irregularity, const Sphere& ball, const Placement& placement,
@@ -219,7 +223,7 @@ class Finder {
         [](const Distant&) {},
         [&](const OneOf<Polygon, Sphere, Cone, Ring, MeshFaces> auto&) {
           const double value = irregularityOf(index);
-          if (value < kSpecialIrregularity) return;
+          if (value < tuning::SpecialObjects::kSpecialIrregularity) return;
           addObject(index, value, at ? std::optional(placed(s.shape, scene_.vertices, *at)) : std::nullopt);
         });
   }
@@ -229,7 +233,7 @@ class Finder {
     const Placement& own = scene_.placements[nested.placement];
     const Placement all = at ? within(*at, own) : own;
     if (scene_.hasOwnModifier(s)) {
-      if (irregularityOf(index) >= kSpecialIrregularity)
+      if (irregularityOf(index) >= tuning::SpecialObjects::kSpecialIrregularity)
         addBall(index, irregularityOf(index), ballOf(nested), all);
     } else if (contentsOf(s).objects > 0) {
       addContents(nested, all);
@@ -288,7 +292,7 @@ bool shows(const Scene& scene, const SpecialObject& object, SurfaceId surface) {
   if (surface == kNone) return false;
   if (!object.several) return surface == object.surface;
   const ModifierId modifier = scene.surfaces[surface].modifier;
-  return mostIrregular(scene, modifier).irregularity >= kSpecialIrregularity;
+  return mostIrregular(scene, modifier).irregularity >= tuning::SpecialObjects::kSpecialIrregularity;
 }
 
 Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V3d& point) {

@@ -16,7 +16,7 @@ struct SeenSources {
   // The constant is also the number of rays below which an image in a mirror is left to the base directions:
   // chosen by experiment. A tenth of a ray is a ray at one in ten points, with ten times the weight.
   // Insensitive.
-  RSPHERE_TUNED(SeenSources, double, kSmallShare, .1);
+  RSPHERE_DERIVED(SeenSources, double, kSmallShare, .1);
   // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
   // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
   // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
@@ -37,6 +37,38 @@ struct SeenSources {
   // of kUsualRays, one for each such part, and kSmallShare times an even share of all rays to images. Without
   // the parts, the error below a luminous ceiling partly hidden by 36 balls is 2.9% instead of .5%.
   RSPHERE_DERIVED(SeenSources, double, kSmallestPart, 4 * kPi / 2048 / (kShadowsAlong * kShadowsAlong));
+};
+
+// The special objects and their density of directions (special_objects.h). The paper gives neither the
+// densities nor the threshold of its criterion, only the resulting numbers of directions: with 1 to 100
+// small spheres in a furnished open-plan office, 2048 base directions and 1030 +- 176 extra ones, 2200 to
+// 3500 in all. These values were fitted so that every point of examples/openplan also has 2200 to 3500
+// directions (accuracy_test.cpp, SendsAsManyDirectionsAsThePaper; distribution:
+// tests/bench/importance/runs/2026-11-21-histogram.txt). They set the numbers of directions of -Sw v, and
+// choose the special objects of both -Sw v and -Sw c.
+struct SpecialObjects {
+  // Directions per sr for an irregularity of 1, times -Sk. A hundred spheres of 0.1 m then get 1000. Reducing
+  // it by 30% changes the time by -17%, raising it by 30% by +15% (Voronoi cells).
+  RSPHERE_TUNED(SpecialObjects, double, kDirectionsPerSr, 32000);
+  // Roughness a (rms slope) at which a highlight is half as irregular as a mirror: derived. The highlight
+  // fills 4 pi a^2 sr, so that about 16 directions, four across, hit it. Raising it by 30% changes the time
+  // by +23% (Voronoi cells). Rougher balls show no images of light sources (glints.h).
+  static constexpr double kSharpRoughness = .0065;
+  // The irregularity of glass panes. It is low because objects behind a pane look as large as without it, and
+  // its reflections are faint. A pane gets 64 directions per sr, so that even the largest gets only a few
+  // hundred. With the irregularity of a mirror it would take all directions. Insensitive.
+  static constexpr double kPane = .002;
+  // Less irregular objects are treated as diffuse: derived. At this threshold they would get 16 directions
+  // per sr, a tenth of the density of the default base directions.
+  static inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
+  // Up to this number of special objects, looking at each of them takes less time than finding out which are
+  // hidden (HiddenBoxes). Measured.
+  static constexpr size_t kFewHidden = 1024;
+  // If octrees and meshes contain more special objects than this, each outermost instance becomes one
+  // object, because the silhouettes of all objects are computed at every point. It is also the cap on pairs
+  // of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors are kept.
+  // Insensitive.
+  static constexpr size_t kMostPlacedObjects = 4096;
 };
 
 // Regions of directions used in place of exact silhouettes (silhouette.cpp, silhouette_index.cpp).

@@ -1,7 +1,6 @@
 #pragma once
 // Tuning constants (base/tuned.h). They affect variance and time, not the mean.
 #include "base/tuned.h"
-#include "light/tuning.h"
 #include "openings/tuning.h"
 
 namespace rsphere::tuning {
@@ -29,7 +28,7 @@ struct BrightSpots {
   //   small room, around a goal          2               slightly less than 1
   // Insensitive. For light that enters through openings, no minimum worth is required; in the sunlit
   // classroom the relative worth is 2.3.
-  RSPHERE_TUNED(BrightSpots, double, kBrighter, 5);
+  RSPHERE_DERIVED(BrightSpots, double, kBrighter, 5);
 };
 
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed (highlights.h,
@@ -55,20 +54,20 @@ struct Highlights {
   // spherical means in the office of kLeast: relative to no aiming at balls, the work for equal noise
   // increases by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single
   // highlight on cylinders, because many cylinders add up. Insensitive.
-  RSPHERE_TUNED(Highlights, double, kLeastOfFew, 10);
+  RSPHERE_DERIVED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
   // wider part would be noticeably curved. Also used for the parts of sources whose images in mirroring balls
-  // are targets (targets/glints.h). Derived: see SourceParts::kNear.
-  static constexpr double kHalf = SourceParts::kNear / 2;
+  // are targets (targets/glints.h). Derived: its edge is at most 3% farther away than its middle.
+  static constexpr double kHalf = .25;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region that surrounds the image of a source in a mirroring ball (targets/glints.h) to the image.
   // Without this margin, few directions would hit the edge, and a part of the image would be lost.
   // Insensitive.
-  RSPHERE_TUNED(Highlights, double, kWider, 1.2);
+  static constexpr double kWider = 1.2;
   // Lower bound on cosines, for surfaces seen edge-on. Used for reflections, whose highlight would otherwise
   // have no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a
   // cylinder's axis and a distant source. Insensitive.
-  RSPHERE_TUNED(Highlights, double, kEdgeOn, .05);
+  static constexpr double kEdgeOn = .05;
 };
 
 }  // namespace rsphere::tuning

@@ -5,7 +5,7 @@
 
 #include "base/spectral_sampling.h"
 #include "light/surface_point.h"
-#include "openings/tuning.h"
+#include "silhouettes/tuning.h"
 #include "targets/tuning.h"
 
 namespace rsphere {
@@ -128,7 +128,7 @@ Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject
       sources_(sources),
       objects_(byModifier(tracing.prepared.scene(), objects)),
       hidden_(tracing.prepared.lights().hidden().blockers(), boxesOf(tracing.prepared.scene(), objects_),
-              kFewHidden) {
+              tuning::SpecialObjects::kFewHidden) {
   if (objects.empty() && !tracing.aims.of<Openings>()) return;
   const Scene& scene = tracing.prepared.scene();
   uint32_t number = 0;
@@ -158,7 +158,8 @@ double Contrasts::deviationOn(size_t object, const Region& region) const {
   std::call_once(alike.measured, [&] {
     std::vector<SpecialObject> objects;
     for (const uint32_t i : alike.objects) objects.push_back(objects_[i]);
-    const size_t rays = std::clamp<size_t>(tuning::Caps::kAsked / count, 2, tuning::Contrasts::kRays);
+    const size_t rays =
+        std::clamp<size_t>(tuning::Contrasts::kRaysToAll / count, 2, tuning::Contrasts::kRays);
     PathTracer tracer = tracing_.tracer();
     PathRequest request;
     const std::shared_ptr<const VertexLight> light = lightFor(region);

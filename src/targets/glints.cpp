@@ -19,7 +19,7 @@ double reflectanceOf(const Material& material) {
   const auto mirrored = mirrorReflection(material);
   if (!mirrored) return 0;
   if (mirrored->boundaries > 0) return kGlassReflectance;
-  if (isTransparent(material) || mirrored->roughness > kSharpRoughness) return 0;
+  if (isTransparent(material) || mirrored->roughness > tuning::SpecialObjects::kSharpRoughness) return 0;
   return mirrored->brightness;
 }
 
@@ -109,7 +109,7 @@ Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> obj
       balls_(ballsAmong(prepared.scene(), objects)),
       // In buildings, this pays even for a few balls, because the sources of each ball are looked up.
       hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_),
-              prepared.lights().hidden().divides() ? 1 : kFewHidden) {
+              prepared.lights().hidden().divides() ? 1 : tuning::SpecialObjects::kFewHidden) {
   const Scene& scene = prepared.scene();
   const auto& all = prepared.lights().all();
   lights_.resize(all.size());

@@ -10,16 +10,17 @@ namespace rsphere::tuning {
 struct Contrasts {
   // Rays to the special objects of one modifier; twice as many paths sample the typical view. Chosen by
   // experiment. For normally distributed values, the standard deviation is then known within 9%, 1/sqrt(2 x
-  // 63). To limit the time at start, all modifiers together get Caps::kAsked rays, but each at least 2: with
+  // 63). To limit the time at start, all modifiers together get kRaysToAll, but each at least 2: with
   // separate rays for each object, the start took 1.1 s instead of .05 s. Insensitive.
-  RSPHERE_TUNED(Contrasts, size_t, kRays, 64);
+  RSPHERE_DERIVED(Contrasts, size_t, kRays, 64);
+  static constexpr size_t kRaysToAll = 1024;
 };
 
 // The regions that get extra directions (targets.cpp).
 struct Targets {
   // An image of a light source in a ball becomes a target if it would otherwise add more than this fraction
   // of the variance of all base directions: chosen by experiment. Insensitive.
-  RSPHERE_TUNED(Targets, double, kLeastGlint, 1e-3);
+  RSPHERE_DERIVED(Targets, double, kLeastGlint, 1e-3);
   // Standard deviation of the brightness within a partly lit region, relative to the brightness of its lit
   // part: derived. .5 is the largest possible value, and holds if half of the region is lit. Measurements for
   // the three kinds of regions confirm it:

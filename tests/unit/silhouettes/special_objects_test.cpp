@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "silhouettes/tuning.h"
 #include "tests/unit/support/scene_of.h"
 
 namespace rsphere {
@@ -23,7 +24,7 @@ TEST(Irregularity, ByType) {
   EXPECT_EQ(irregularity(Mirror{kGray, {}}), 1);
   EXPECT_EQ(irregularity(Dielectric{kGray, 1.5, 0}), 1);
   EXPECT_EQ(irregularity(Interface{kGray, 1.5, kGray, 1.3}), 1);
-  EXPECT_EQ(irregularity(Glass{kGray, 1.52}), kPane);
+  EXPECT_EQ(irregularity(Glass{kGray, 1.52}), tuning::SpecialObjects::kPane);
   EXPECT_EQ(irregularity(BsdfMaterial{.aperture = true}), 1);
   EXPECT_EQ(irregularity(BsdfMaterial{.proxy = true}), 0);
   EXPECT_EQ(irregularity(Light{kGray}), 0);
@@ -35,7 +36,7 @@ TEST(Irregularity, ByType) {
 TEST(Irregularity, BySpecularityAndRoughness) {
   EXPECT_EQ(irregularity(Opaque{kGray, 0, 0, false}), 0);
   EXPECT_EQ(irregularity(Opaque{kGray, .9, 0, true}), .9);
-  EXPECT_EQ(irregularity(Opaque{kGray, .8, kSharpRoughness, true}), .4);
+  EXPECT_EQ(irregularity(Opaque{kGray, .8, tuning::SpecialObjects::kSharpRoughness, true}), .4);
   EXPECT_EQ(irregularity(Trans{kGray, .1, 0, .5, .8}), .9 * .5 * .8);
   EXPECT_EQ(irregularity(Trans{kGray, .3, 0, .1, .1}), .3);
   // More specular is more irregular, rougher is less.
@@ -51,16 +52,21 @@ TEST(Irregularity, OfEllipticHighlightsByBothRoughnesses) {
   const auto shiny = [](double specular, double along, double across) {
     return irregularity(Anisotropic{kGray, specular, along, across});
   };
-  EXPECT_NEAR(shiny(.8, kSharpRoughness, kSharpRoughness), .4, 1e-12) << "as its round kin";
+  EXPECT_NEAR(shiny(.8, tuning::SpecialObjects::kSharpRoughness, tuning::SpecialObjects::kSharpRoughness), .4,
+              1e-12)
+      << "as its round kin";
   EXPECT_NEAR(shiny(.8, .2, .01), shiny(.8, .01, .2), 1e-12);
   EXPECT_GT(shiny(.8, .2, .01), shiny(.8, .2, .1));
   EXPECT_LT(shiny(.8, .2, .01), shiny(.8, .01, .01));
-  Anisotropic through{kGray, 0, kSharpRoughness, kSharpRoughness};
+  Anisotropic through{kGray, 0, tuning::SpecialObjects::kSharpRoughness,
+                      tuning::SpecialObjects::kSharpRoughness};
   through.transmissivity = .5;
   through.transmittedSpecular = .8;
   EXPECT_NEAR(irregularity(through), .2, 1e-12);
   const auto phong = [](double power) { return irregularity(Ashikhmin{kGray, kGray, power, power}); };
-  EXPECT_NEAR(phong(2 / (kSharpRoughness * kSharpRoughness) - 1), .25, 1e-12);
+  EXPECT_NEAR(
+      phong(2 / (tuning::SpecialObjects::kSharpRoughness * tuning::SpecialObjects::kSharpRoughness) - 1), .25,
+      1e-12);
   EXPECT_LT(phong(5), phong(50));
 }
 
@@ -103,7 +109,8 @@ TEST(SpecialObjects, AreFoundThroughAliases) {
   const Scene scene = sceneOf(kRoom);
   const auto objects = findSpecialObjects(scene, 1);
   EXPECT_EQ(namesOf(scene, objects), (std::vector<std::string>{"ball", "wrapped", "glassless"}));
-  for (const SpecialObject& o : objects) EXPECT_EQ(o.density, o.irregularity * kDirectionsPerSr);
+  for (const SpecialObject& o : objects)
+    EXPECT_EQ(o.density, o.irregularity * tuning::SpecialObjects::kDirectionsPerSr);
   EXPECT_EQ(objects[1].irregularity, .9);
   EXPECT_EQ(objects[2].irregularity, 1);
 }
@@ -120,9 +127,9 @@ TEST(SpecialObjects, IllumsAreWhatTheyShow) {
       "plate ring c 0 0 8 0 0 3 0 0 1 0 1\nwall ring d 0 0 8 0 0 4 0 0 1 0 1\n");
   const auto objects = findSpecialObjects(scene, 1);
   EXPECT_EQ(namesOf(scene, objects), (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(objects[0].irregularity, kPane);
-  EXPECT_EQ(objects[1].irregularity, kPane);
-  EXPECT_GT(objects[2].irregularity, kPane);
+  EXPECT_EQ(objects[0].irregularity, tuning::SpecialObjects::kPane);
+  EXPECT_EQ(objects[1].irregularity, tuning::SpecialObjects::kPane);
+  EXPECT_GT(objects[2].irregularity, tuning::SpecialObjects::kPane);
 }
 
 TEST(SpecialObjects, DensityIsMultiplied) {

@@ -1,7 +1,8 @@
 #pragma once
-// The pages of man/ are generated: NAME.1 is the template NAME.1.in, into which the options and the quantities
-// of points are inserted. What is said of an option is in the table of options, and in its paragraph in
-// NAME.options. After a change of one of these, copy the page that the test writes to the build folder.
+// The pages of man/ are generated: NAME.1 is the template NAME.1.in, into which the options and the
+// quantities of points are inserted. What is said of an option is in the table of options, and in its
+// paragraph in NAME.options. After a change of one of these, copy the page that the test writes to the build
+// folder.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -164,8 +165,8 @@ inline std::string quantities() {
   return text;
 }
 
-// That man/NAME.1 is man/NAME.1.in with the texts in place of the lines `.\" @KEY@`. If it is not, leaves what it
-// should be in the folder of the test.
+// That man/NAME.1 is man/NAME.1.in with the texts in place of the lines `.\" @KEY@`. If it is not, leaves
+// what it should be in the folder of the test.
 inline void expectPage(const std::string& name, const std::map<std::string, std::string>& texts) {
   std::string page = contents(folder() + name + ".1.in");
   for (const auto& [key, text] : texts) {
