@@ -136,9 +136,9 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                                       entry.arguments);
   const std::string value = shortValue(entry, values);
   return fmt::format("  {:<20} {}{}\n", use,
-                     isSwitch             ? entry.remark.substr(0, entry.remark.find('|'))
-                     : entry.help.empty() ? entry.remark
-                                          : entry.help,
+                     !entry.help.empty() ? entry.help
+                     : isSwitch          ? entry.remark.substr(0, entry.remark.find('|'))
+                                         : entry.remark,
                      entry.support == Support::unused ? " (no effect)"
                      : value.empty()                  ? ""
                                                       : fmt::format(" [{}]", value));

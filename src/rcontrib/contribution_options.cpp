@@ -56,7 +56,7 @@ constexpr OptionEntry kContributionOptions[] = {
       of<&ContributionOptions::values>}},
     {{"-c", "count", "accumulated rays per record", Group::companion, of<&ContributionOptions::raysPerRecord>,
       Range{0, 2147483647}, "rays"}},
-    {{"-b", "bin", "expression of the bin", Group::companion,
+    {{"-b", "bin", "bin of a ray, an expression", Group::companion,
       +[](Options& o) -> std::string& { return own(o).next.bin; }},
      {.line = noLine}},
     {{"-bn", "count", "number of bins", Group::companion, Custom{setBins}}},
@@ -69,7 +69,7 @@ constexpr OptionEntry kContributionOptions[] = {
       +[](Options& o) -> std::string& { return own(o).next.output; }},
      {.line = noLine}},
     {{"-fo", "", "overwrite files|keep files", Group::companion, of<&ContributionOptions::overwrites>}},
-    {{"-r", "", "recover files|start anew", Group::companion, of<&ContributionOptions::recovers>}},
+    {{"-r", "", "complete existing files|start anew", Group::companion, of<&ContributionOptions::recovers>}},
 };
 
 // The features that -features lists in addition to those of all programs, in the words of RADIANCE's

@@ -6,7 +6,7 @@ namespace {
 constexpr OptionEntry kCompareOptions[] = {
     {{"-Ct", "frac", "tolerance of relative differences", Group::companion, of<&CompareOptions::tolerance>,
       Range{0, 1}}},
-    {{"-Cs", "frac", "share of records that may be beyond it", Group::companion,
+    {{"-Cs", "frac", "fraction of records that may exceed it", Group::companion,
       of<&CompareOptions::shareBeyond>, Range{0, 1}}},
     {{"-Cr", "N", "repeats with other random numbers", Group::companion, of<&CompareOptions::repeats>,
       Range{2, 10000}, "repeats"}},
