@@ -45,7 +45,7 @@ class Openings {
   std::vector<View> views() const;
 
   // The sampling distribution for a point of a diffuse surface.
-  struct Aim : Proposals<tuning::Caps::kAimedRoom> {
+  struct Aim : Proposals<tuning::Caps::kAimed> {
     double seen = 0;  // form factor from the point to all openings
   };
 

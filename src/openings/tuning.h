@@ -13,7 +13,7 @@ struct Caps {
   // - the parts of sources whose highlights one ball shows.
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
   // more. Chosen by experiment: each aimed ray evaluates all their densities. Insensitive.
-  static constexpr size_t kAimed = 64, kAimedRoom = kAimed;
+  static constexpr size_t kAimed = 64;
   // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
   // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept.
   // Insensitive.

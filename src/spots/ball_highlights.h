@@ -25,7 +25,7 @@ class BallHighlights {
   BallHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return balls_.empty(); }
-  static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimed;
 
   // The sampling distribution for a point of a diffuse surface. Each element represents the highlights of one
   // ball.

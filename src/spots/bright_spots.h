@@ -33,7 +33,7 @@ class BrightSpots {
   bool empty() const { return spots_.count == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
   double usual() const { return usual_; }
-  static constexpr size_t kRoom = tuning::Caps::kAimedRoom;
+  static constexpr size_t kRoom = tuning::Caps::kAimed;
 
   // A spot of light that enters through openings.
   struct Sunlit {

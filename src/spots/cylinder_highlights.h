@@ -20,7 +20,7 @@ class CylinderHighlights {
   CylinderHighlights(const Scene& scene, const Tracer& tracer, const LightSources& lights, double least);
 
   bool empty() const { return cylinders_.empty(); }
-  static constexpr size_t kRoom = tuning::Caps::kAimedRoom / 2;
+  static constexpr size_t kRoom = tuning::Caps::kAimed / 2;
 
   // The sampling distribution for a point of a diffuse surface. Each element represents the highlight of one
   // part of a source on one cylinder.
