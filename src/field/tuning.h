@@ -131,8 +131,8 @@ struct CoarseSolution {
   // between five shells of rough trans make more than 140,000 patches.
   static constexpr size_t kEnclosedPlaces = 8;
   static constexpr double kEnclosed = .6;
-  // Lower bound on the side of a patch of an enclosed surface, relative to the surface's extent. An estimate
-  // that was tried only with these five shells: one point in sphere mode takes 4 s instead of minutes.
+  // Lower bound on the side of a patch of an enclosed surface, relative to the surface's extent. Chosen
+  // with the five shells above, and tried in no other scene: a point in sphere mode takes 4 s, not minutes.
   static constexpr double kLeastPatchEnclosed = .2;
   // Number of rays of a patch for each ray of a gather (-ad plus -as). Measured in daylit rooms: .1 instead
   // of .07 takes a third more time for a tenth less error.
@@ -147,9 +147,9 @@ struct CoarseSolution {
   // - Using the patch's mean distance to its surroundings instead of the room's size gives patches below
   //   desks and in gaps so many rays that four daylit rooms take 1.3 to 3 times the time for the same error.
   RSPHERE_TUNED(CoarseSolution, double, kUsualShare, .006);
-  // Upper bound on the number of rays of a patch, relative to the usual number; by lamps, it is 1. Measured:
-  // with 2.5, a sunlit classroom has 15% more noise; with 8, it has the same noise as with 4 and takes a
-  // sixth more time.
+  // Upper bound on the number of rays of a patch, relative to the usual number. Without daylight, 1 is used
+  // instead. Measured: with 2.5, a sunlit classroom has 15% more noise; with 8, it has the noise of 4 and
+  // takes a sixth more time.
   //
   // It also bounds the growth of the usual number by daylight. Below -aa .1, the usual number is inversely
   // proportional to -aa, because all places that see a patch share its noise. Measured: without this growth,

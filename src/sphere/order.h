@@ -22,9 +22,9 @@ struct OrderScratch {
 };
 void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order);
 
-// Sorts them along the curve, after two groups that come first: a few extreme directions, whose hull contains
-// the centre if possible, and a sample of all others. The sample keeps holes small at the edge of the region
-// inserted so far.
+// Sorts the indices like orderAlongCurve(), except for two groups that come first: a few extreme
+// directions, whose hull contains the centre if possible, and a sample of all others. The sample keeps
+// holes small at the edge of the region inserted so far.
 void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order);
 
 }  // namespace rsphere
