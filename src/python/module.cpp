@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "man/python_help.h"
+#include "python/help.h"
 #include "python/options.h"
 #include "rsphere/scene.h"
 
