@@ -6,6 +6,7 @@
 #include "rays/shared_highlights.h"
 #include "rays/volume_boundaries.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -370,12 +371,15 @@ template <ScattersLight S>
   bool shares = false;
   const bool followsLobes = end.context.depth > 0 || !state_.request.leavesOutLobes;
   for (const Component c : scattering.components()) {
-    const std::optional<Lobe> lobe = scattering.lobe(c, random);
+    std::optional<Lobe> lobe = scattering.lobe(c, random);
     if (!lobe) continue;
     if (!followsLobes) {
       state_.leftOut.lobes = true;
       continue;
     }
+    if (end.context.depth == 0 && !isRayMode(settings_.mode) &&
+        maxChannel(scattering.lobeShare(c)) >= tuning::VertexLight::kStrong)
+      lobe->leastSamples = std::max(lobe->leastSamples, tuning::SpecularLight::kOfPoint);
     const auto draw = [&](int i, int n) { return scattering.draw(c, i, n, random); };
     if (c == Component::transmitted) {
       light_.specular.addLobe(end, kTransmittedSpecular, *lobe, draw, nullptr, result);

@@ -127,6 +127,23 @@ TEST(Daylit, ImagesOfTheSunMatterOnlyWhereItShinesOnTheMirror) {
   EXPECT_FALSE(surfacesOf(settingOf(kRoom + kPane + light + inSun, 2)));
 }
 
+// Points beside columns of brushed steel had twice this noise, because few of the directions that see the
+// column were continued to the window.
+TEST(Daylit, SeveralSamplesAreTakenOfStrongHighlightsInView) {
+  const std::string column =
+      "void metal steel 0 0 5 .6 .6 .6 .9 .15\nsteel cylinder c 0 0 7 2.4 2.4 0 2.4 2.4 3 .3\n";
+  const auto noise = [&](double samples) {
+    const SphereSetting setting(sceneOf(kRoom + kPane + kSky + column), [&](RayOptions& o) {
+      o.ambientBounces = 0;
+      o.specularSampling = samples;
+    });
+    const Sample means = meansOf(setting, V3d(2.75, 2.3, .8), 1, 128);
+    return means.standardError() / means.mean();
+  };
+  const double usual = noise(1), many = noise(16);
+  EXPECT_LT(usual, 1.5 * many);
+}
+
 TEST(Daylit, LampsKeepPathsFromTheEye) {
   const std::string lamp =
       "void light lamp 0 0 3 20 20 20\nlamp polygon p 0 0 12 1 1 2.9 1 2 2.9 3 2 2.9 3 1 2.9\n";
