@@ -522,6 +522,7 @@ double LightSources::density(const SourceSample& hit, const V3d& point) const {
     const double solidAngle = near ? solidAngleOf(source, *plane, {}, point) : 0;
     return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
   }
+  if (!isDensityKnown(hit.source)) return 0;
   // Rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its center.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
   const double sine2 = r * r / square;

@@ -68,7 +68,7 @@ class LightSources {
   // plane ones and balls.
   bool isDensityKnown(LightId source) const;
   // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
-  // has hit. hit: its source, distance and cosine. REQUIRES isDensityKnown() and that it is not distant.
+  // has hit; 0 if it is not known. hit: its source, distance and cosine. REQUIRES that it is not distant.
   double density(const SourceSample& hit, const V3d& point) const;
 
  private:

@@ -473,6 +473,16 @@ TEST(Source, DensityIsThatOfItsSamples) {
     SCOPED_TRACE(c.surface + fmt::format(" from {} {} {}", c.point.x, c.point.y, c.point.z));
     expectMean(area, c.area, 1.08);
   }
+  // Light of tubes is then not weighed by a density.
+  const Scene tube = sceneOf(light("cylinder c\n0\n0\n7 0 0 2 0 1 2 .1\n"));
+  const LightSources sources(tube);
+  const LightId source = *sources.all().ids().begin();
+  EXPECT_FALSE(sources.isDensityKnown(source));
+  Random random(3);
+  std::vector<SourceSample> samples;
+  sources.sample(source, V3d(1, 0, 0), {0, 1}, random, samples);
+  ASSERT_FALSE(samples.empty());
+  EXPECT_EQ(sources.density(samples[0], V3d(1, 0, 0)), 0);
 }
 
 }  // namespace
