@@ -65,10 +65,10 @@ using OptionValue = std::variant<std::monostate, SwitchValue, IntegerValue, Coun
 
 // The member of Options, or of a struct derived from it, as the value of an option.
 template <class Owner, class Member>
-Owner ownerOf(Member Owner::*);
+Owner structOf(Member Owner::*);
 template <auto kMember>
 auto& of(Options& o) {
-  return static_cast<decltype(ownerOf(kMember))&>(o).*kMember;
+  return static_cast<decltype(structOf(kMember))&>(o).*kMember;
 }
 
 // What every option has.

@@ -101,7 +101,7 @@ void PlainSurfaces::findSources() {
     knownSources_[i] = isKnown(i);  // images come after their sources, which isKnown() looks up
     coverage_.anySource = coverage_.anySource || knownSources_[i];
     coverage_.allSources = coverage_.allSources && knownSources_[i];
-    coverage_.allLit = coverage_.allLit && (knownSources_[i] || !isLit(lights[i]));
+    coverage_.allLit = coverage_.allLit && (knownSources_[i] || (!portals_.empty() && !isLit(lights[i])));
   }
 }
 

@@ -58,8 +58,8 @@ class PlainSurfaces {
   struct Coverage {
     bool anySource = false;  // at least one source is known
     bool allSources = true;  // all sources are known
-    // All but images of distant sources in mirrors that seem to be in the shade; what light these have is
-    // left to paths from the eye.
+    // With portals: all sources but images of distant ones in mirrors that seem to be in the shade are known.
+    // Light of these images is left to paths from the eye.
     bool allLit = true;
     bool all = true;        // all light: all surfaces and sources are known
     bool allDirect = true;  // all direct light of known surfaces

@@ -41,6 +41,7 @@ concept LightFinder = requires(const Finder& finder, const AimFrom& from, typena
 // A finder with its fraction of a mixture of directions. finder: null if there is none; its share is then 0.
 template <LightFinder Finder>
 struct ShareOfMixture {
+  static constexpr AimedAt kKind = Finder::kKind;
   const Finder* finder;
   typename Finder::Aim aim;
   double share = 0;

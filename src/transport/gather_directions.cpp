@@ -39,22 +39,19 @@ double usualRadiance(const Aims& aims) {
   return tuning::GatherDirections::kFartherInside * (spots ? std::min(inside, spots->usual()) : inside);
 }
 
-// Divides the rays between the finders of a kind.
-template <class... Finder>
-void divide(AimedAt kind, double all, ShareOfMixture<Finder>&... part) {
+// The fraction of the rays that one finder gets: its part of what the finders of its kind share. all: mean
+// radiance over the hemisphere (W/sr/m2).
+template <class One, class... Finder>
+double shareOf(const ShareOfMixture<One>& one, double all, const ShareOfMixture<Finder>&... each) {
+  if (!(one.aim.mean > 0)) return 0;
   double mean = 0, seen = 0;
-  const auto ofKind = [&](const auto& p) {
-    return std::remove_reference_t<decltype(*p.finder)>::kKind == kind;
-  };
-  ((ofKind(part) ? (mean += part.aim.mean, seen += part.seen()) : 0), ...);
-  if (!(mean > 0)) return;
+  ((each.kKind == one.kKind ? (mean += each.aim.mean, seen += each.seen()) : 0), ...);
   // Unaimed directions hit the places, too, as often as they fill the hemisphere. If these alone reach the
   // limit, none is aimed.
-  const auto [aimed, most] = shareOf(kind);
+  const auto [aimed, most] = shareOf(one.kKind);
   const double unseen = std::max(0., 1 - seen / most);
   // `all` can be 0, if that was the estimate for a room that little light enters.
-  const double share = std::min(most, aimed * mean / all * unseen);
-  ((ofKind(part) ? part.share = share * (part.aim.mean / mean) : 0), ...);
+  return std::min(most, aimed * mean / all * unseen) * (one.aim.mean / mean);
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
   AimFrom from{point, normal, rays};
   double aimedAt = 0;
   const auto ask = [&](auto& part, bool highlights) {
-    if (!part.finder || (part.finder->kKind == AimedAt::highlights) != highlights) return;
+    if (!part.finder || (part.kKind == AimedAt::highlights) != highlights) return;
     part.finder->aim(from, part.aim);
     if (!highlights) aimedAt += part.aim.mean;
   };
@@ -74,8 +71,7 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
         (ask(part, false), ...);
         from.all = aimedAt + usualRadiance(aims);
         (ask(part, true), ...);
-        for (const AimedAt kind : {AimedAt::openings, AimedAt::spots, AimedAt::highlights})
-          divide(kind, from.all, part...);
+        ((part.share = shareOf(part, from.all, part...)), ...);
       },
       shares_);
 }
