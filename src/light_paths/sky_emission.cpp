@@ -7,7 +7,7 @@ namespace rsphere {
 
 SkyEmission::SkyEmission(const Portals& portals, double paths) : portals_(portals) {
   if (!(paths > 0)) return;
-  for (const Portal& p : portals.all()) {
+  for (const Opening& p : portals.all()) {
     pathPower_ += kPi * p.area() * p.radiance / paths;
     sum_ += p.area() * p.radiance;
   }
@@ -15,8 +15,8 @@ SkyEmission::SkyEmission(const Portals& portals, double paths) : portals_(portal
 
 SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, OutdoorParts outdoors) const {
   double due = where * sum_;
-  const Portal* portal = portals_.all().data();
-  for (const Portal* const last = portal + portals_.all().size() - 1; portal < last; ++portal)
+  const Opening* portal = portals_.all().data();
+  for (const Opening* const last = portal + portals_.all().size() - 1; portal < last; ++portal)
     if ((due -= portal->area() * portal->radiance) < 0) break;
   Leaving way;
   const double u = random.uniform(), v = random.uniform();

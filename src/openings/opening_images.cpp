@@ -43,7 +43,7 @@ double shareOf(const Rectangle& opening, const Rectangle& mirror) {
 
 static_assert(kShapes == 8, "Is a new shape flat?");
 OpeningImages::OpeningImages(const PreparedScene& prepared, const Openings& openings)
-    : inside_(openings.inside()) {
+    : AimedAtOpenings({}, openings.inside()) {
   const Scene& scene = prepared.scene();
   double all = 0;
   for (const Opening& o : openings.all()) all += o.power;
@@ -55,53 +55,34 @@ OpeningImages::OpeningImages(const PreparedScene& prepared, const Openings& open
     const Rectangle front = rectangleAround(scene, {&polygon, 1});
     for (const Opening& o : openings.all()) {
       Rectangle mirror = front;
-      if ((o.at(.5, .5) - mirror.corner).dot(mirror.normal) < 0) {
+      if (mirror.above(o.at(.5, .5)) < 0) {
         if (reflection->frontOnly) continue;
         mirror.normal = -mirror.normal;
       }
       const double power = o.power * reflection->brightness * shareOf(o, mirror);
       if (power > 0)
-        images_.push_back({imageIn(mirror, o), mirror, surface, o.filled,
-                           o.power / o.filled * reflection->brightness, power});
+        places_.push_back(
+            {{imageIn(mirror, o), o.filled, o.isHole, o.radiance * reflection->brightness, power},
+             mirror,
+             surface});
     }
   }
-  keepLargest(images_, tuning::Caps::kAsked, [](const Image& image) { return image.power; });
-  while (aimed_ < std::min(images_.size(), tuning::Caps::kAimed) &&
-         images_[aimed_].power > tuning::Openings::kLeastMirrored * all)
+  keepLargest(places_, tuning::Caps::kAsked, [](const OpeningImage& image) { return image.power; });
+  while (aimed_ < std::min(places_.size(), tuning::Caps::kAimed) &&
+         places_[aimed_].power > tuning::Openings::kLeastMirrored * all)
     ++aimed_;
 }
 
-V3d OpeningImages::Image::crossing(const V3d& from, const V3d& to) const {
-  const double height = above(from);
-  return from + height / (height - above(to)) * (to - from);
+V3d OpeningImage::crossing(const V3d& from, const V3d& to) const {
+  const double height = mirror.above(from);
+  return from + height / (height - mirror.above(to)) * (to - from);
 }
 
 void OpeningImages::aim(const AimFrom& from, Aim& aim) const {
-  aim.clear();
-  aim.seen = 0;
-  for (uint32_t i = 0; i < aimed_; ++i) {
-    const Image& image = images_[i];
-    if (!(image.above(from.point) > 0)) continue;
-    const double factor =
-        formFactorTo(image.place, image.filled, from.point, from.normal, [&](const V3d& at) {
-          return image.above(at) < 0 && contains(image.mirror, image.crossing(from.point, at));
-        });
-    if (!(factor > 0)) continue;
-    aim.seen += factor;
-    aim.add(i, factor * kPi * image.radiance);
-  }
-  aim.finish(from.point);
-}
-
-V3d OpeningImages::sample(const Aim& aim, double u1, double u2, double u3) const {
-  return (images_[aim.number[aim.chosen(u1)]].place.at(u2, u3) - aim.point).normalized();
-}
-
-double OpeningImages::density(const Aim& aim, const V3d& direction) const {
-  double sum = 0;
-  for (size_t i = 0; i < aim.count; ++i)
-    sum += (aim.upTo[i] - aim.before(i)) * densityTo(images_[aim.number[i]].place, aim.point, direction);
-  return sum / aim.before(aim.count);
+  aimAtFirst(aimed_, from, aim, [&](const OpeningImage& image, const V3d& at) {
+    return image.mirror.above(from.point) > 0 && image.mirror.above(at) < 0 &&
+           contains(image.mirror, image.crossing(from.point, at));
+  });
 }
 
 }  // namespace rsphere

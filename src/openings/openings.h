@@ -22,44 +22,81 @@ namespace rsphere {
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;
-  double power = 0;  // mean radiance towards the dark side, times `filled`
+  double radiance = 0;  // brightness, mean of the light that enters (W/sr/m2)
+  double power = 0;     // of the light that enters: radiance times `filled`
 };
 
-class Openings {
- public:
-  // Made by findOpenings(). inside, depth: results of the functions inside() and depth().
-  Openings(std::vector<Opening> openings, double inside, double depth)
-      : openings_(std::move(openings)), inside_(inside), depth_(depth) {}
+// The projected area (square world units) of openings for light that enters in this direction (unit).
+double areaTowards(std::span<const Opening> openings, const V3d& direction);
 
-  bool empty() const { return openings_.empty(); }
+// A point on the openings, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES a projected
+// area above 0.
+V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3);
+
+// What openings and their images have in common as a LightFinder: rectangles, sampled by area.
+template <class Place>
+class AimedAtOpenings {
+ public:
+  bool empty() const { return places_.empty(); }
+  // In descending order of power.
+  std::span<const Place> all() const { return places_; }
   // The mean brightness (W/sr/m2) behind the openings, on their dark sides.
   double inside() const { return inside_; }
-  // The mean distance of the surfaces behind the openings (world units), as a measure of the size of rooms.
-  double depth() const { return depth_; }
-
-  // An opening as seen from its dark side.
-  struct View {
-    Rectangle place;      // its normal points to the dark side
-    double radiance = 0;  // W/sr/m2, mean
-  };
-  std::vector<View> views() const;
 
   // The sampling distribution for a point of a diffuse surface.
   struct Aim : Proposals<tuning::Caps::kAimed> {
-    double seen = 0;  // form factor from the point to all openings
+    double seen = 0;  // form factor from the point to all places
   };
-
-  // See LightFinder. u1 selects the opening.
   static constexpr AimedAt kKind = AimedAt::openings;
-  void aim(const AimFrom& from, Aim& aim) const;
-  V3d sample(const Aim& aim, double u1, double u2, double u3) const;
-  double density(const Aim& aim, const V3d& direction) const;
+  V3d sample(const Aim& aim, double u1, double u2, double u3) const {
+    return (places_[aim.number[aim.chosen(u1)]].at(u2, u3) - aim.point).normalized();
+  }
+  double density(const Aim& aim, const V3d& direction) const {
+    double sum = 0;
+    for (size_t i = 0; i < aim.count; ++i)
+      sum += (aim.upTo[i] - aim.before(i)) * densityTo(places_[aim.number[i]], aim.point, direction);
+    return sum / aim.before(aim.count);
+  }
 
-  std::span<const Opening> all() const { return openings_; }
+ protected:
+  AimedAtOpenings(std::vector<Place> places, double inside) : places_(std::move(places)), inside_(inside) {}
+
+  // Aims at the first places. counts(place, at): whether the point of the place sends light to `from`.
+  template <class Counts>
+  void aimAtFirst(size_t places, const AimFrom& from, Aim& aim, Counts counts) const {
+    aim.clear();
+    aim.seen = 0;
+    for (uint32_t i = 0; i < places; ++i) {
+      const Place& place = places_[i];
+      const double factor = formFactorTo(place, place.filled, from.point, from.normal,
+                                         [&](const V3d& at) { return counts(place, at); });
+      if (!(factor > 0)) continue;
+      aim.seen += factor;
+      aim.add(i, factor * kPi * place.radiance);
+    }
+    aim.finish(from.point);
+  }
+
+  std::vector<Place> places_;
 
  private:
-  std::vector<Opening> openings_;
-  double inside_, depth_;
+  double inside_;
+};
+
+class Openings : public AimedAtOpenings<Opening> {
+ public:
+  // Made by findOpenings(). inside, depth: results of the functions inside() and depth().
+  Openings(std::vector<Opening> openings, double inside, double depth)
+      : AimedAtOpenings(std::move(openings), inside), depth_(depth) {}
+
+  // The mean distance of the surfaces behind the openings (world units), as a measure of the size of rooms.
+  double depth() const { return depth_; }
+
+  // See LightFinder.
+  void aim(const AimFrom& from, Aim& aim) const;
+
+ private:
+  double depth_;
 };
 
 }  // namespace rsphere

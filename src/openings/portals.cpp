@@ -9,10 +9,9 @@ namespace rsphere {
 Portals::Portals(const Openings& openings, double size, double samePlace)
     : lift_(std::max(1e-6 * size, 8 * samePlace)) {
   double brightest = 0;
-  for (const auto& [place, radiance] : openings.views()) brightest = std::max(brightest, radiance);
-  for (const auto& [place, radiance] : openings.views()) {
-    if (radiance < tuning::Portals::kLeastRadiance * brightest) continue;
-    Portal portal{place, radiance};
+  for (const Opening& o : openings.all()) brightest = std::max(brightest, o.radiance);
+  for (Opening portal : openings.all()) {
+    if (portal.radiance < tuning::Portals::kLeastRadiance * brightest) continue;
     portal.corner -= lift_ * portal.normal;
     portals_.push_back(portal);
   }
@@ -20,21 +19,15 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
 
 double Portals::leaving(const V3d& origin, const V3d& direction, double farthest) const {
   double nearest = farthest;
-  for (const Portal& p : portals_) {
-    const double cosine = -direction.dot(p.normal);
-    if (!(cosine > 0)) continue;
-    const double distance = (origin - p.corner).dot(p.normal) / cosine;
-    if (distance >= 0 && distance < nearest && contains(p, origin + distance * direction)) nearest = distance;
-  }
+  for (const Opening& p : portals_) nearest = std::min(nearest, distanceTo(p, origin, direction));
   return nearest < farthest ? nearest : kFarAway;
 }
 
 PortalDirections::PortalDirections(const Portals& portals, const V3d& point, const V3d& normal)
     : point_(point), normal_(normal) {
   double sum = 0;
-  for (const Portal& p : portals.all()) {
-    const double distance = (point - p.corner).dot(p.normal);
-    if (!(distance > 0)) continue;
+  for (const Opening& p : portals.all()) {
+    if (!(p.above(point) > 0)) continue;
     // The portal's light at the place is estimated from the mean cosine of the directions to its corners; 0
     // for corners below the horizon.
     double height = 0;
@@ -55,14 +48,10 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
 double PortalDirections::density(const V3d& direction, const Seen& chosen) const {
   double sum = 0, before = 0;
   for (const Seen& s : seen_) {
-    const double share = s.upTo - before, cosine = -direction.dot(s.portal->normal);
+    const double share = s.upTo - before;
     before = s.upTo;
-    if (&s != &chosen) {
-      if (!(cosine > 0)) continue;
-      const double distance = (point_ - s.portal->corner).dot(s.portal->normal) / cosine;
-      if (!contains(*s.portal, point_ + distance * direction)) continue;
-    }
-    sum += share / s.shape.solidAngle();
+    if (&s == &chosen || distanceTo(*s.portal, point_, direction) < kFarAway)
+      sum += share / s.shape.solidAngle();
   }
   return sum;
 }

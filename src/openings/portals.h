@@ -1,7 +1,8 @@
 #pragma once
 // Openings (openings.h) as the light sources of paths from both ends. A path from the eye that leaves through
 // a portal, from its dark side to its bright side, ends there: all light from beyond is treated as light of
-// the portal. Thus no light is counted twice, whatever is outdoors.
+// the portal. Thus no light is counted twice, whatever is outdoors. A portal lies a little outside of its
+// opening, so that a pane in the opening belongs to the room despite rounding.
 #include <span>
 #include <vector>
 
@@ -11,12 +12,6 @@
 
 namespace rsphere {
 
-// A portal lies a little outside of its opening, so that a pane in the opening belongs to the room despite
-// rounding.
-struct Portal : Rectangle {
-  double radiance = 0;  // estimated mean of the light that enters (W/sr/m2, brightness)
-};
-
 class Portals {
  public:
   Portals() = default;
@@ -24,7 +19,7 @@ class Portals {
   Portals(const Openings& openings, double size, double samePlace);
 
   bool empty() const { return portals_.empty(); }
-  std::span<const Portal> all() const { return portals_; }
+  std::span<const Opening> all() const { return portals_; }
   // The distance of the portals from their openings, on the bright side (world units).
   double lift() const { return lift_; }
 
@@ -36,7 +31,7 @@ class Portals {
   }
 
  private:
-  std::vector<Portal> portals_;
+  std::vector<Opening> portals_;
   double lift_ = 0;
 };
 
@@ -55,7 +50,7 @@ class PortalDirections {
 
  private:
   struct Seen {
-    const Portal* portal;
+    const Opening* portal;
     SphericalRectangle shape;
     double upTo;  // cumulative probability
   };

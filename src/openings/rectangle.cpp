@@ -37,11 +37,16 @@ Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> po
   return r;
 }
 
-double densityTo(const Rectangle& r, const V3d& point, const V3d& direction) {
+double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction) {
   const double cosine = -direction.dot(r.normal);
-  if (!(cosine > 0)) return 0;
-  const double distance = (point - r.corner).dot(r.normal) / cosine;
-  return contains(r, point + distance * direction) ? distance * distance / (cosine * r.area()) : 0;
+  if (!(cosine > 0)) return kFarAway;
+  const double distance = r.above(origin) / cosine;
+  return distance >= 0 && contains(r, origin + distance * direction) ? distance : kFarAway;
+}
+
+double densityTo(const Rectangle& r, const V3d& point, const V3d& direction) {
+  const double distance = distanceTo(r, point, direction);
+  return distance < kFarAway ? distance * distance / (-direction.dot(r.normal) * r.area()) : 0;
 }
 
 }  // namespace rsphere

@@ -1,6 +1,7 @@
 #pragma once
 // Bounding rectangles of coplanar polygons.
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "base/constants.h"
@@ -16,6 +17,9 @@ struct Rectangle {
   double area() const { return width * height; }
   // The point at these fractions of the width and the height.
   V3d at(double u, double v) const { return corner + u * width * x + v * height * y; }
+  std::array<V3d, 4> corners() const { return {at(0, 0), at(1, 0), at(1, 1), at(0, 1)}; }
+  // The height of a point above the plane of the rectangle, on the side of the normal.
+  double above(const V3d& point) const { return (point - corner).dot(normal); }
 };
 
 // Whether a point of the rectangle's plane lies in the rectangle.
@@ -30,7 +34,7 @@ inline bool contains(const Rectangle& r, const V3d& at) {
 // sends light.
 template <class Counts>
 double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V3d& normal, Counts counts) {
-  if (!((point - r.corner).dot(r.normal) > 0)) return 0;
+  if (!(r.above(point) > 0)) return 0;
   // The middle and four other points, which are separated by sqrt(5/12) of the sides, so that the mean of the
   // five is exact for polynomials of the third degree.
   constexpr double kBetween = .6454972243679028, kInset = (1 - kBetween) / 2;
@@ -46,33 +50,12 @@ double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V
   return factor / 5 * filled / kPi;
 }
 
+// The distance at which a ray (direction: unit) meets the front of the rectangle; kFarAway if it does not.
+double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction);
+
 // The density per sr, in a direction from a point, of the directions to uniformly distributed points on the
 // rectangle's front.
 double densityTo(const Rectangle& r, const V3d& point, const V3d& direction);
-
-// The projected area (square world units) of openings for light that enters in this direction (unit). Their
-// normals point to the dark side.
-template <class Opening>
-double areaTowards(std::span<const Opening> openings, const V3d& direction) {
-  double sum = 0;
-  for (const Opening& o : openings) sum += std::max(0., direction.dot(o.normal)) * o.area();
-  return sum;
-}
-
-// A point on the openings, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES a projected
-// area above 0.
-template <class Opening>
-V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3) {
-  double due = u1 * areaTowards(openings, direction);
-  const Opening* chosen = nullptr;
-  for (const Opening& o : openings) {
-    const double area = std::max(0., direction.dot(o.normal)) * o.area();
-    if (area > 0) chosen = &o;
-    if (due < area) break;
-    due -= area;
-  }
-  return chosen->at(u2, u3);
-}
 
 // The smallest rectangle around coplanar polygons that is aligned with the longest edge of the first polygon.
 // Edges whose lengths differ only by rounding are treated as equal, and the first is used. The normal is the

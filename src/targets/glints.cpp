@@ -8,6 +8,7 @@
 #include "silhouettes/tuning.h"
 #include "spots/ball_reflection.h"
 #include "spots/tuning.h"
+#include "targets/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -104,14 +105,16 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 
 }  // namespace
 
-Glints::Glints(const PreparedScene& prepared, std::span<const SpecialObject> objects)
-    : prepared_(prepared),
-      balls_(ballsAmong(prepared.scene(), objects)),
+double leastGlint(double usual) { return tuning::Targets::kLeastGlint * 4 * pi * usual * usual; }
+
+Glints::Glints(const TargetScene& from)
+    : prepared_(from.tracing.prepared),
+      balls_(ballsAmong(prepared_.scene(), from.objects)),
       // In buildings, this pays even for a few balls, because the sources of each ball are looked up.
-      hidden_(prepared.lights().hidden().blockers(), boxesOf(balls_),
-              prepared.lights().hidden().divides() ? 1 : tuning::SpecialObjects::kFewHidden) {
-  const Scene& scene = prepared.scene();
-  const auto& all = prepared.lights().all();
+      hidden_(prepared_.lights().hidden().blockers(), boxesOf(balls_),
+              prepared_.lights().hidden().divides() ? 1 : tuning::SpecialObjects::kFewHidden) {
+  const Scene& scene = prepared_.scene();
+  const auto& all = prepared_.lights().all();
   lights_.resize(all.size());
   for (const LightId i : all.ids()) {
     if (all[i].isVirtual()) continue;
@@ -161,7 +164,7 @@ bool Glints::shines(const LightSource& source, std::span<const V3d> corners, con
 
 // Adds the images of one light source in one ball.
 void Glints::addOf(const Ball& mirror, const Light& light, const V3d& point, double least,
-                   std::vector<Glint>& found) const {
+                   std::vector<FoundRegion>& found) const {
   const Sphere& ball = mirror.sphere;
   const double nearest = (point - ball.center).length() - ball.radius;
   const LightSource& source = prepared_.lights().all()[light.source];
@@ -193,18 +196,21 @@ void Glints::addOf(const Ball& mirror, const Light& light, const V3d& point, dou
       }
     }
     Silhouette region = hullOf(around, point);
-    if (region.regionSolidAngle() > 0) found.push_back({std::move(region), radiance, found.size() > first});
+    if (region.regionSolidAngle() > 0)
+      found.push_back({std::move(region), tuning::Targets::kPartlyLit * radiance, 0, found.size() > first});
   }
 }
 
-std::vector<Glint> Glints::find(const V3d& point, double least) const {
-  std::vector<Glint> found;
+std::vector<FoundRegion> Glints::find(const V3d& point, double usual) const {
+  std::vector<FoundRegion> found;
+  if (!(usual > 0)) return found;
   for (const uint32_t i : hidden_.notHiddenFrom(point)) {
     const Sphere& ball = balls_[i].sphere;
     if (!((point - ball.center).length() - ball.radius > 1e-4 * ball.radius)) continue;
     // A ball receives little light from sources that are hidden from its middle.
     for (const uint32_t light : prepared_.lights().hidden().notHiddenFrom(ball.center))
-      if (lights_[LightId(light)]) addOf(balls_[i], *lights_[LightId(light)], point, least, found);
+      if (lights_[LightId(light)])
+        addOf(balls_[i], *lights_[LightId(light)], point, leastGlint(usual), found);
   }
   return found;
 }

@@ -3,18 +3,18 @@
 #include <span>
 #include <vector>
 
-#include "openings/openings.h"
 #include "points/direction_sample.h"
 #include "silhouettes/silhouette_index.h"
-#include "spots/bright_spots.h"
 #include "targets/contrasts.h"
 #include "targets/glints.h"
 #include "targets/mirrored_openings.h"
+#include "targets/opening_targets.h"
+#include "targets/special_targets.h"
+#include "targets/sunlit_targets.h"
 
 namespace rsphere {
 
-// A region of the sphere of directions that gets extra directions. Examples are the silhouettes of a special
-// object (special_objects.h) and of the image of a light source in a special object.
+// A region of the sphere of directions that gets extra directions.
 struct Target {
   Silhouette silhouette;
   double density = 0;      // extra directions per sr of its region
@@ -47,8 +47,7 @@ class Targets {
   SilhouetteIndex index_;  // of targets_, by position
 };
 
-// Chooses the targets at any point. Shared by all threads; keeps references to the prepared scene and to
-// bright spots.
+// Chooses the targets at any point. Shared by all threads; keeps references.
 class TargetChoice {
  public:
   // Measures how much radiance varies on the objects (contrasts.h). sources: those integrated separately.
@@ -56,25 +55,17 @@ class TargetChoice {
   TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                const SeenSources& sources, double densityFactor);
 
-  // The targets at a point (world): special objects, images of light sources in them, openings that show
-  // daylight (openings/openings.h) and their images in mirrors, and visible spots of daylight
-  // (spots/bright_spots.h). The density on a target is in proportion to the standard deviation of its
+  // The targets at a point (world). The density on a target is in proportion to the standard deviation of its
   // radiance (Neyman's allocation), relative to the base directions, whose density is assumed to be optimal
   // elsewhere. If this takes more than `most` extra directions on average, all densities are reduced by one
   // factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
-  const PreparedScene& prepared_;
-  std::span<const BrightSpots::Sunlit> sunlit_;
-  std::vector<Openings::View> openings_;  // openings without special objects in them
-  // By index in contrasts_.objects(): the mean radiance (W/sr/m2) of the opening that contains the object, as
-  // seen from the dark side; 0 if no opening contains it.
-  std::vector<double> radiances_;
   double densityFactor_;
   Contrasts contrasts_;
-  Glints glints_;
-  const OpeningImages* images_;  // null: none
+  // All ways to find targets.
+  TargetFinders<SpecialTargets, Glints, MirroredOpenings, OpeningTargets, SunlitTargets> finders_;
 };
 
 }  // namespace rsphere

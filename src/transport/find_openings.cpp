@@ -235,6 +235,7 @@ Openings findOpenings(const PreparedScene& prepared) {
     depth /= all;
   }
   merge(found);
+  for (Opening& opening : found) opening.radiance = opening.power / opening.filled;
   const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
   std::stable_sort(found.begin(), found.end(), byPower);
   if (found.size() > tuning::Caps::kAimed) found.resize(tuning::Caps::kAimed);

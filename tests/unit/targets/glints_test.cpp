@@ -20,8 +20,12 @@ struct Setting : SphereSetting {
                               "void plastic black 0 0 5 0 0 0 0 0\n" +
                               text),
                       [](RayOptions& o) { o.ambientBounces = 0; }) {}
-  std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
-    return Glints(transport->prepared(), findSpecialObjects(scene, 1)).find(point, least);
+  // usual: as in TargetFinder.
+  std::vector<FoundRegion> seenFrom(const V3d& point, double usual = 1e-9) const {
+    const std::vector<SpecialObject> objects = findSpecialObjects(scene, 1);
+    const SphereTracing all = tracing();
+    const SeenSources sources(transport->prepared());
+    return Glints({all, objects, Contrasts(all, objects, sources)}).find(point, usual);
   }
 };
 
@@ -47,7 +51,7 @@ Found compare(const Setting& setting, const V3d& point) {
       const V3d direction = whole.sample((i + .5) / kSide, (k + .5) / kSide);
       const bool bright = tracer.trace(point, direction, 0, 1).value.color.y > 1;
       bool in = false;
-      for (const Glint& g : glints) in = in || g.region.contains(direction);
+      for (const FoundRegion& g : glints) in = in || g.silhouette.contains(direction);
       found.bright += bright;
       found.covered += bright && in;
       inRegions += in;
@@ -110,10 +114,11 @@ TEST(Glints, ThatMatterLittleAreLeftOut) {
   const V3d point(4, -1, 4);
   const auto found = setting.seenFrom(point);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(found[0].brightness, 9, 1e-12);
-  const double solidAngle = found[0].region.regionSolidAngle();
-  EXPECT_EQ(setting.seenFrom(point, 81 * solidAngle / 2).size(), 1u);
-  EXPECT_EQ(setting.seenFrom(point, 81 * solidAngle * 30).size(), 0u);
+  // Half of 9 W/sr/m2, as if it filled half of its region.
+  EXPECT_NEAR(found[0].deviation, 4.5, 1e-12);
+  const double important = 81 * found[0].silhouette.regionSolidAngle();
+  EXPECT_EQ(setting.seenFrom(point, std::sqrt(important / 2 / leastGlint(1))).size(), 1u);
+  EXPECT_EQ(setting.seenFrom(point, std::sqrt(important * 30 / leastGlint(1))).size(), 0u);
 }
 
 }  // namespace

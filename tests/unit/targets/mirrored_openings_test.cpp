@@ -24,9 +24,11 @@ struct Setting : SphereSetting {
             sceneOf(kRoomWithAWindow + "void metal chrome 0 0 5 .9 .9 .9 1 0\n" +
                     "void metal steel 0 0 5 .9 .9 .9 1 .1\nvoid mirror silver 0 0 3 .9 .9 .9\n" + text),
             [](RayOptions& o) { o.ambientBounces = 1; }) {}
-  std::vector<Glint> seenFrom(const V3d& point, double least = 0) const {
-    const OpeningImages* const images = transport->aims().of<OpeningImages>();
-    return images ? mirroredOpenings(transport->prepared(), *images, point, least) : std::vector<Glint>();
+  // usual: as in TargetFinder.
+  std::vector<FoundRegion> seenFrom(const V3d& point, double usual = 1e-9) const {
+    const SphereTracing all = tracing(transport->aims());
+    const SeenSources sources(transport->prepared());
+    return MirroredOpenings({all, {}, Contrasts(all, {}, sources)}).find(point, usual);
   }
 };
 
@@ -62,10 +64,10 @@ TEST(MirroredOpenings, AreWhereDirectionsSeeThem) {
   for (const V3d& point : {kPoint, V3d(1, 3, 1.2), V3d(2.5, 4.5, 2), V3d(2.5, 2, .6)}) {
     const auto found = setting.seenFrom(point);
     ASSERT_EQ(found.size(), 1u) << point;
-    EXPECT_GT(compare(setting, point, found[0].region).covered, .97) << point;
-    EXPECT_LT(compare(setting, point, found[0].region).wasted, .06) << point;
+    EXPECT_GT(compare(setting, point, found[0].silhouette).covered, .97) << point;
+    EXPECT_LT(compare(setting, point, found[0].silhouette).wasted, .06) << point;
     const V3d elsewhere = point + V3d(.2, .2, .2);
-    EXPECT_LT(compare(setting, elsewhere, found[0].region).covered, .97) << "would not see another place";
+    EXPECT_LT(compare(setting, elsewhere, found[0].silhouette).covered, .97) << "would not see another place";
   }
 }
 
