@@ -1,7 +1,6 @@
 #include "rsphere/error.h"
 
 #include <charconv>
-#include <cstring>
 
 #include "base/version.h"
 

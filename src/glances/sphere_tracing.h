@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 
 #include "glances/light_pools.h"
 #include "transport/path_tracer.h"

@@ -1,7 +1,6 @@
 #include "light_paths/plain_surfaces.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "light/surface_point.h"
 #include "openings/tuning.h"

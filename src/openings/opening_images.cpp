@@ -1,7 +1,6 @@
 #include "openings/opening_images.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "base/constants.h"

@@ -1,6 +1,6 @@
 #include "openings/openings.h"
 
-#include "base/constants.h"
+#include <algorithm>
 
 namespace rsphere {
 

@@ -1,7 +1,6 @@
 #include "openings/portals.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/constants.h"
 

@@ -1,6 +1,5 @@
 #pragma once
 // Bounding rectangles of coplanar polygons.
-#include <algorithm>
 #include <array>
 #include <span>
 

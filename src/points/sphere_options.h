@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/angles.h"
-#include "base/radiometry.h"
 #include "glare/glare_options.h"
 #include "sphere/direction_bins.h"
 

@@ -28,11 +28,11 @@ struct TargetScene {
 
 // Shared by all threads. Missed and misplaced regions change the variance of estimates, not their mean.
 template <class Finder>
-concept TargetFinder = std::constructible_from<Finder, const TargetScene&> &&
-    requires(const Finder& finder, const V3d& point, double usual) {
-  // The regions seen from a point (world) that may vary more than `usual`, the
-  // standard deviation of the radiance elsewhere (W/sr/m2). The result depends only on
-  // the scene, the options and the arguments.
+concept TargetFinder = requires(const TargetScene& scene, const Finder& finder, const V3d& point,
+                                double usual) {
+  Finder(scene);
+  // The regions seen from a point (world) that may vary more than `usual`, the standard deviation of the
+  // radiance elsewhere (W/sr/m2). The result depends only on the scene, the options and the arguments.
   { finder.find(point, usual) } -> std::same_as<std::vector<FoundRegion>>;
 };
 

@@ -8,9 +8,7 @@
 
 #include "base/function_ref.h"
 #include "light_paths/plain_surfaces.h"
-#include "rays/prepared_scene.h"
 #include "rays/ray_follower.h"
-#include "transport/path_state.h"
 
 namespace rsphere {
 

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/even_sequence.h"
-#include "base/random.h"
 #include "openings/holes.h"
 #include "openings/panes.h"
 #include "openings/tuning.h"

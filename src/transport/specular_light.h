@@ -1,10 +1,8 @@
 #pragma once
 // Light from sharp reflection and refraction, and from samples of glossy lobes.
 #include "base/function_ref.h"
-#include "rays/prepared_scene.h"
 #include "rays/ray_follower.h"
 #include "shade/material_response.h"
-#include "transport/path_state.h"
 
 namespace rsphere {
 

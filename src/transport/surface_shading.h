@@ -3,12 +3,10 @@
 // mixtures, and adds up the light that the material's response requires (shade/material_response.h).
 #include "light_paths/owners.h"
 #include "light_paths/vertex_light.h"
-#include "rays/prepared_scene.h"
 #include "rays/ray_follower.h"
 #include "shade/material_response.h"
 #include "transport/direct_light.h"
 #include "transport/indirect_light.h"
-#include "transport/path_state.h"
 #include "transport/specular_light.h"
 
 namespace rsphere {
