@@ -7,6 +7,7 @@
 #include "base/colorimetry.h"
 #include "base/constants.h"
 #include "base/even_sequence.h"
+#include "estimate/tuning.h"
 #include "glare/local_fits.h"
 #include "glare/nearby_directions.h"
 
@@ -21,8 +22,6 @@ constexpr double kPeak = 50000;     // cd/m2
 // Offsets of seeds: rays that are traced again, and rays to the task, are independent of rays that are traced
 // first.
 constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
-
-constexpr size_t kTaskRays = 256;
 
 SphereOptions withDirections(SphereOptions options) {
   options.everyDirection = true;
@@ -249,14 +248,14 @@ double GlareEstimator::taskLuminance(const SetAtPoint& set, const Gaze& gaze, Pa
   Random random(mixBits(set.seed() + kTask));
   const double shift1 = random.uniform(), shift2 = random.uniform();
   double sum = 0;
-  for (size_t i = 0; i < kTaskRays; ++i) {
+  for (size_t i = 0; i < tuning::Glare::kTaskRays; ++i) {
     const Imath::V2d u = evenly(i, shift1, shift2);
     const double ahead = 1 - u.x * (1 - std::cos(half)), off = std::sqrt(std::max(0., 1 - ahead * ahead));
     const V3d direction =
         ahead * axis + off * (std::cos(2 * kPi * u.y) * aside + std::sin(2 * kPi * u.y) * above);
     sum += luminance(tracer.trace(set.point(), direction.normalized(), 0, random.bits()).value);
   }
-  return sum / kTaskRays;
+  return sum / tuning::Glare::kTaskRays;
 }
 
 double GlareEstimator::threshold(const View& view) const {

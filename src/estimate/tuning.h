@@ -35,4 +35,11 @@ struct Dark {
   static constexpr double kShare = 2. / 2048;
 };
 
+// Glare at an eye (glare_estimator.cpp).
+struct Glare {
+  // Number of rays to the task. Its luminance is then known within 6% if single values vary as much as their
+  // mean.
+  static constexpr size_t kTaskRays = 256;
+};
+
 }  // namespace rsphere::tuning

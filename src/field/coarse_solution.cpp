@@ -19,17 +19,6 @@ using Imath::V2d;
 
 namespace {
 
-// The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its
-// relative number of rays.
-constexpr double kUsualAccuracy = .1;
-
-// Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
-constexpr double kMostRays = 4096;
-
-// The light of a patch has slopes if the determinant of the covariance of its sites' places is above this. It
-// is 1/144 for places all over the patch, and 0 for places on a line.
-constexpr float kLeastDeterminant = 2e-4f;
-
 // Binary logarithms of the numbers of hash buckets; the tables take 2 and 4 MB. A picture of an office looks
 // up 190,000 patches and 370,000 divisions. With 65,536 buckets, a third of the time was spent waiting for
 // memory in long chains.
@@ -83,7 +72,7 @@ void fitLinear(const std::vector<V2f>& at, Sites& sites) {
     product += d.x * d.y / count;
   }
   const float determinant = squares.x * squares.y - product * product;
-  if (!(determinant > kLeastDeterminant)) return;
+  if (!(determinant > tuning::CoarseSolution::kLeastDeterminant)) return;
   for (size_t i = 0; i < at.size(); ++i) {
     const V2f d = at[i] - sites.middle;
     sites.all[i].weight = V2f(squares.y * d.x - product * d.y, squares.x * d.y - product * d.x) / determinant;
@@ -154,7 +143,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
-  const double accuracy = std::max(options.accuracy / kUsualAccuracy, 1 / tuning::CoarseSolution::kMoreRays);
+  const double accuracy = std::max(options.accuracy / tuning::CoarseSolution::kUsualAccuracy,
+                                   1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   const bool first = options.patchesAtFirst;
   const double far = first ? tuning::CoarseSolution::kFarPatchAtFirst : tuning::CoarseSolution::kFarPatch;
@@ -320,7 +310,7 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
 // more.
 double CoarseSolution::raysOf(const Patch& patch) const {
   const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
-  return std::clamp(effort_.usual * part, effort_.least, kMostRays);
+  return std::clamp(effort_.usual * part, effort_.least, tuning::CoarseSolution::kMostRays);
 }
 
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {

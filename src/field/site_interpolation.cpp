@@ -9,19 +9,6 @@
 namespace rsphere {
 namespace {
 
-// Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
-// functions.
-constexpr float kSlopes = .5F;
-
-// The error of an interpolation is predicted as the change of the gradient between two sites, along the
-// segment between them, divided by this. For a quadratic function f that change is f'' h^2, and the error of
-// a linear interpolation is at most f'' h^2 / 8.
-constexpr double kBySlopes = 8;
-
-// Lower bound on an extrapolated light, relative to the interpolated one. Without it, the light beside bright
-// surfaces becomes negative where cells are wide (with -aa 1 -ar 4 in an office, some pixels are black).
-constexpr float kLeast = .05F;
-
 float luminance(const V3f& color) { return static_cast<float>(brightness(Color(color.x, color.y, color.z))); }
 V3f luminanceOf(const V3f (&change)[3]) {
   return static_cast<float>(kRedWeight) * change[0] + static_cast<float>(kGreenWeight) * change[1] +
@@ -50,10 +37,11 @@ double SitesAround::roughness(double tolerance) const {
       const double slopeChance = tuning::SiteInterpolation::kChance *
                                  std::hypot(light[a]->noisePerLength, light[b]->noisePerLength) *
                                  way.length();
-      error = std::max({error, (std::abs(after - before) - slopeChance) / kBySlopes,
-                        (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) /
-                            tuning::SiteInterpolation::kByStep,
-                        (std::abs(step) - chance) / tuning::SiteInterpolation::kByStep});
+      error =
+          std::max({error, (std::abs(after - before) - slopeChance) / tuning::SiteInterpolation::kBySlopes,
+                    (std::abs(step - (before + after) / 2) - chance - slopeChance / 2) /
+                        tuning::SiteInterpolation::kByStep,
+                    (std::abs(step) - chance) / tuning::SiteInterpolation::kByStep});
     }
   return level > 0 ? error / (tolerance * level) : 0;
 }
@@ -76,7 +64,8 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
     mean += w * light[a]->mean;
     for (int k = 0; k < 3; ++k) {
       const float there = light[a]->mean[k];
-      mean[k] += w * kSlopes * std::clamp(light[a]->perLength[k].dot(way), -there, there);
+      mean[k] +=
+          w * tuning::SiteInterpolation::kSlopes * std::clamp(light[a]->perLength[k].dot(way), -there, there);
     }
   }
   const V3f aside(place - middle);
@@ -88,7 +77,8 @@ GatheredLight SitesAround::at(const V3d& place, double& extrapolationError) cons
     extrapolationError = margin * std::max(linear, margin * static_cast<double>(aside.length2()) *
                                                        inverseReach * inverseReach);
   }
-  for (int k = 0; k < 3; ++k) mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), kLeast * mean[k]);
+  for (int k = 0; k < 3; ++k)
+    mean[k] = std::max(mean[k] + result.perLength[k].dot(aside), tuning::SiteInterpolation::kLeast * mean[k]);
   result.setMean(mean);
   return result;
 }

@@ -5,25 +5,16 @@
 #include "base/frame.h"
 #include "base/overloaded.h"
 #include "base/random.h"
+#include "field/tuning.h"
 
 namespace rsphere {
 namespace {
-
-// Number of points in a cell that are tried in turn until one lies on the surface. If the surface fills an
-// eighth of a cell, (7/8)^24 = 4% of such cells get no site.
-constexpr int kCandidates = 24;
-
-// Number of edges of a polygon that are compared to align the frame with the longest. A polygon with more
-// edges is nearly round, and any frame suits it.
-constexpr uint32_t kEdges = 16;
 
 // The number of cells that an extent is divided into, so that their side is at most `side`.
 double partsOf(double extent, double side, int least) {
   return std::max<double>(std::ceil(extent / side), least);
 }
 
-// Offset from a cell's middle, relative to its side; an irregular number, unlike coordinates of scenes.
-constexpr double kAside = .01371;
 constexpr double kNormalStep = 1e-9;  // components of plane normals are rounded to multiples of this
 constexpr SurfaceId kPlane(-2);       // replaces the surface in the keys of shared planes
 
@@ -116,7 +107,7 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
   const V3d* const corner = scene_->vertices.data() + polygon.firstVertex;
   const uint32_t count = polygon.vertices;
   double longest = 0;
-  for (uint32_t i = 0; i < std::min(count, kEdges); ++i) {
+  for (uint32_t i = 0; i < std::min(count, tuning::SurfaceCells::kEdges); ++i) {
     const V3d edge = toWorld(corner[(i + 1) % count]) - toWorld(corner[i]);
     // Edges whose lengths differ only by rounding are treated as equal, and the first is chosen.
     if (edge.length2() <= longest * (1 + 1e-9)) continue;
@@ -278,10 +269,11 @@ std::optional<GatherSite> SurfaceChart::siteIn(const CellGrid& grid, const CellK
 }
 
 std::optional<GatherSite> SurfaceChart::site(const CellGrid& grid, const CellKey& key) const {
-  for (int c = 0; c < kCandidates; ++c) {
+  for (int c = 0; c < tuning::SurfaceCells::kCandidates; ++c) {
     // The first candidate is slightly off the middle. If it lay in the plane of a wall, which often stands in
     // the exact middle of a floor, the wall would not occlude it.
-    const Imath::V2d in = evenly(static_cast<size_t>(c), .5 + kAside, .5 - kAside);
+    const Imath::V2d in =
+        evenly(static_cast<size_t>(c), .5 + tuning::SurfaceCells::kAside, .5 - tuning::SurfaceCells::kAside);
     if (auto site = siteIn(grid, key, in)) return site;
   }
   return {};

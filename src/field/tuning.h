@@ -60,6 +60,17 @@ struct SiteInterpolation {
   // The last two detect edges of shadows between the sites, which gradients do not show. Chosen by
   // experiment. Insensitive.
   static constexpr double kByStep = 5;
+  // Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
+  // functions.
+  static constexpr float kSlopes = .5F;
+  // The error of an interpolation is predicted as the change of the gradient between two sites, along the
+  // segment between them, divided by this. For a quadratic function f that change is f'' h^2, and the error
+  // of a linear interpolation is at most f'' h^2 / 8.
+  static constexpr double kBySlopes = 8;
+  // Lower bound on an extrapolated light, relative to the interpolated one. Without it, the light beside
+  // bright surfaces becomes negative where cells are wide (with -aa 1 -ar 4 in an office, some pixels are
+  // black).
+  static constexpr float kLeast = .05F;
 };
 
 // The coarse solution beyond the first diffuse surface (coarse_solution.cpp). "Measured" values were chosen
@@ -167,6 +178,26 @@ struct CoarseSolution {
   static constexpr double kFewestForSlopes = 32;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
+  // The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its
+  // relative number of rays.
+  static constexpr double kUsualAccuracy = .1;
+  // Cap on the rays of a patch. The noise is then 1/64 of the noise of one ray, less than other errors.
+  static constexpr double kMostRays = 4096;
+  // The light of a patch has slopes if the determinant of the covariance of its sites' places is above this.
+  // It is 1/144 for places all over the patch, and 0 for places on a line.
+  static constexpr float kLeastDeterminant = 2e-4f;
+};
+
+// The cells of surfaces (surface_cells.cpp).
+struct SurfaceCells {
+  // Number of points in a cell that are tried in turn until one lies on the surface. If the surface fills an
+  // eighth of a cell, (7/8)^24 = 4% of such cells get no site.
+  static constexpr int kCandidates = 24;
+  // Number of edges of a polygon that are compared to align the frame with the longest. A polygon with more
+  // edges is nearly round, and any frame suits it.
+  static constexpr uint32_t kEdges = 16;
+  // Offset from a cell's middle, relative to its side; an irregular number, unlike coordinates of scenes.
+  static constexpr double kAside = .01371;
 };
 
 }  // namespace rsphere::tuning

@@ -6,17 +6,6 @@
 #include "glances/tuning.h"
 
 namespace rsphere {
-namespace {
-
-// A place gets separate vertices if the sources visible from it have less than this fraction of all power. If
-// they have more, enough of the paths from all sources reach the place.
-constexpr double kFewPower = .25;
-// Places in one region share vertices. The region is the largest one around a place in which the sources
-// visible from the place still make up this fraction of the power of all sources visible from the region.
-constexpr double kShared = .75;
-
-}  // namespace
-
 LightPools::LightPools(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t pools,
                        size_t paths, uint64_t seed, Tracers tracers)
     : prepared_(prepared),
@@ -43,9 +32,10 @@ std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
   const std::span<const uint32_t> seen = hidden.notHiddenFrom(point);
   if (seen.size() == hidden.all().size()) return {};
   const double own = powerOf(seen);
-  if (!(own > 0) || own >= kFewPower * powerOf(hidden.all())) return {};
-  return hidden.widestWhere(point,
-                            [&](std::span<const uint32_t> some) { return kShared * powerOf(some) <= own; });
+  if (!(own > 0) || own >= tuning::LightPools::kFewPower * powerOf(hidden.all())) return {};
+  return hidden.widestWhere(point, [&](std::span<const uint32_t> some) {
+    return tuning::LightPools::kShared * powerOf(some) <= own;
+  });
 }
 
 std::shared_ptr<const VertexLight> LightPools::at(const V3d& point, uint64_t set) const {

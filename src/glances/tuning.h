@@ -44,4 +44,14 @@ struct DiffuseGlances {
   RSPHERE_TUNED(DiffuseGlances, double, kLeft, .1);
 };
 
+// Light vertices for each room (light_pools.cpp).
+struct LightPools {
+  // A place gets separate vertices if the sources visible from it have less than this fraction of all power.
+  // If they have more, enough of the paths from all sources reach the place.
+  static constexpr double kFewPower = .25;
+  // Places in one region share vertices. The region is the largest one around a place in which the sources
+  // visible from the place still make up this fraction of the power of all sources visible from the region.
+  static constexpr double kShared = .75;
+};
+
 }  // namespace rsphere::tuning

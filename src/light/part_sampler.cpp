@@ -9,6 +9,7 @@
 #include "base/frame.h"
 #include "light/sources.h"
 #include "light/spherical_triangle.h"
+#include "light/tuning.h"
 #include "shade/spot_cone.h"
 
 namespace rsphere {
@@ -62,10 +63,6 @@ V3d onDisk(const V3d& center, const PlaneLight& plane, double s, double t) {
   return center + a * plane.u + b * plane.v;
 }
 
-// The outline of a part of a disk is replaced by a polygon around it, with this many corners for the whole
-// circle. It is 1.3% larger than the disk; samples beside the disk are dropped.
-constexpr int kCornersOfDisk = 16;
-
 // The area-preserving map to the disk in polar coordinates, for parts of a near disk: s is the fraction of
 // the area within a circle, and t the fraction of the full angle.
 V3d onDiskByAngle(const V3d& center, const PlaneLight& plane, double s, double t) {
@@ -88,7 +85,8 @@ void eachTriangle(const V3d& center, const PlaneLight& plane, const SourcePart& 
         useBoth(at(part.s0, part.t0), at(part.s1, part.t0), at(part.s1, part.t1), at(part.s0, part.t1));
       },
       [&](const PlaneLight::Disk&) {
-        const int sides = std::max(1, static_cast<int>(std::ceil(kCornersOfDisk * (part.t1 - part.t0))));
+        const int sides = std::max(
+            1, static_cast<int>(std::ceil(tuning::PartSampler::kCornersOfDisk * (part.t1 - part.t0))));
         const double outwards = 1 / std::cos(kPi * (part.t1 - part.t0) / sides);
         const auto at = [&](double s, int side, double factor) {
           const V3d from = onDiskByAngle(center, plane, s, part.t0 + side * (part.t1 - part.t0) / sides);
@@ -126,24 +124,21 @@ double solidAngleOf(const LightSource& source, const PlaneLight& plane, const So
 // have unbounded variance. towards: the vector from the point to the part's middle.
 bool isNear(const LightSource& source, const PlaneLight& plane, const SourcePart& part, const V3d& point,
             const V3d& towards) {
-  // Parts that are wider than this, relative to their distance, are sampled by solid angle instead of by
-  // area: derived. The edge of a narrower part is at most 3% farther away than its middle, sqrt(1 + .25^2),
-  // so that cosine / distance^2 varies little over it.
-  constexpr double kNear = .5;
   if (std::holds_alternative<PlaneLight::Parallelogram>(plane.map) ||
       std::holds_alternative<PlaneLight::Square>(plane.map)) {
     const double width =
         2 * std::max(plane.extentU * (part.s1 - part.s0), plane.extentV * (part.t1 - part.t0));
-    return width * width > kNear * kNear * towards.length2();
+    return width * width > tuning::PartSampler::kNear * tuning::PartSampler::kNear * towards.length2();
   }
   // Far from a source none of its parts is near.
-  constexpr double kFar = 1 + 4 / kNear;
+  constexpr double kFar = 1 + 4 / tuning::PartSampler::kNear;
   if ((source.center - point).length2() > kFar * kFar * source.radius * source.radius) return false;
   Box3d box;
   eachTriangle(source.center, plane, part, [&](const V3d& a, const V3d& b, const V3d& c) {
     for (const V3d& corner : {a, b, c}) box.extendBy(corner);
   });
-  return box.size().length2() > kNear * kNear * (box.center() - point).length2();
+  return box.size().length2() >
+         tuning::PartSampler::kNear * tuning::PartSampler::kNear * (box.center() - point).length2();
 }
 
 // Halves a part repeatedly until its half-extents u and v are at most `allowed` times its distance, or until

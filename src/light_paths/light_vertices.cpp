@@ -454,13 +454,12 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 }
 
 double NearLight::closeShare(double distance, double fromEye) const {
-  // The fraction is 0 beyond ten times the distance at which share() is 1/2, and so for most vertices.
-  constexpr double kRest = 1. / 101;
   const double close = tuning::LightVertices::kWidth * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
   // Places next to the eye are left to rays: glances are dense there, but light vertices are a few
   // centimeters apart, so that most answers would miss their light.
-  return std::max(0., (share - kRest) / (1 - kRest)) * (1 - this->share(fromEye));
+  return std::max(0., (share - tuning::LightVertices::kRest) / (1 - tuning::LightVertices::kRest)) *
+         (1 - this->share(fromEye));
 }
 
 }  // namespace rsphere

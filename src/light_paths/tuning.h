@@ -28,6 +28,9 @@ struct LightVertices {
   // Cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
   // nearly all paths earlier.
   static constexpr size_t kMostHits = 1024;
+  // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2, and so for most
+  // vertices.
+  static constexpr double kRest = 1. / 101;
 };
 
 // The light of vertices at a place (vertex_light.h).

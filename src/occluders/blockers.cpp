@@ -5,18 +5,11 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "occluders/tuning.h"
 #include "scene/shape.h"
 
 namespace rsphere {
 namespace {
-
-constexpr size_t kMostKnown = 8;  // number of recent blockers that are kept
-// Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
-// wall.
-constexpr int kSurfacesInTheWay = 6;
-
-// Cap on the blockers that are kept for all regions: 6 MB.
-constexpr size_t kMostFound = 16384;
 
 // The smallest distance that boxes must have from the plane of a polygon that hides one box from the other
 // (world units). Without it, rays could pass the polygon: a surface nearer than Scene::samePlace to an end of
@@ -47,7 +40,7 @@ bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRe
   if (!(left > 0)) return false;
   way.normalize();
   SurfaceId last = kNone;
-  for (int i = 0; i < kSurfacesInTheWay && left > 0; ++i) {
+  for (int i = 0; i < tuning::Blockers::kSurfacesInTheWay && left > 0; ++i) {
     const Hit hit = tracer.nearest(origin, way, left, last);
     if (hit.surface == kNone) return false;
     if (use(hit.surface)) return true;
@@ -78,7 +71,7 @@ KnownBlocker Blockers::find(SurfaceId id, const V3d& from) const {
   const std::lock_guard lock(finding_);
   if (const auto known = found_.find(key); known != found_.end()) return known->second;
   KnownBlocker blocker = made(id, *polygon, front);
-  if (found_.size() < kMostFound) found_.emplace(key, blocker);
+  if (found_.size() < tuning::Blockers::kMostFound) found_.emplace(key, blocker);
   return blocker;
 }
 
@@ -270,14 +263,14 @@ bool Blockers::hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocke
     KnownBlocker blocker = find(surface, from.center());
     if (!blocker || !covers(*blocker, way)) return way.isOpen;
     known.insert(known.begin(), std::move(blocker));
-    if (known.size() > kMostKnown) known.pop_back();
+    if (known.size() > tuning::Blockers::kMostKnown) known.pop_back();
     return true;
   };
   // Next to the smaller box, the segments are closest together, so that they miss most holes.
   V3d begin = from.center(), end = to.center();
   if (to.size().length2() < from.size().length2()) std::swap(begin, end);
   if (anySurface(tracer_, begin, end, hidesBy)) return !way.isOpen;
-  return fromBothEnds && way.seesHole && met == kSurfacesInTheWay &&
+  return fromBothEnds && way.seesHole && met == tuning::Blockers::kSurfacesInTheWay &&
          anySurface(tracer_, end, begin, hidesBy) && !way.isOpen;
 }
 

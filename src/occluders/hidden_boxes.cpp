@@ -6,36 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "occluders/tuning.h"
+
 namespace rsphere {
 namespace {
-
-// A region is divided if polygons hide at least the fraction kWorthHiding of its boxes, and at least
-// kLeastHidden boxes, from places in it. Division stops after kMostInVain successive divisions of which none
-// has hidden a quarter of the boxes. kMostInVain must be above five, because it takes five divisions to
-// isolate the region on one side of a slab: one along the slab, and one along each of its four edges.
-constexpr double kWorthHiding = .4;
-constexpr size_t kLeastHidden = 2;
-constexpr int kMostInVain = 6;
-// Divisions along the edges of a slab cut thin strips off a region. Boxes that are hidden from the remaining
-// region are only searched for after the last division: a half with more than this fraction of the region's
-// width is divided first, but at most kMostUntested times.
-constexpr double kSameRegion = .99;
-constexpr int kMostUntested = 8;
-// A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in it
-// is this many times as far away as the nearest. With a million lamps below a bare floor, each ray examines
-// 340 lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these divisions.
-constexpr double kSameDistance = 5;
-// Number of boxes that are examined to decide whether a region is divided.
-constexpr size_t kProbes = 32;
-// To decide whether to divide a region, only polygons are considered whose size times this factor is at most
-// the region's width. For larger polygons, division would gain little.
-constexpr double kWorthDividing = .25;
-// Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
-// boxes are tested first.
-constexpr size_t kMostTests = 4096;
-// Up to this number of boxes, blockers are searched for from both ends of a segment; for more boxes this
-// takes more time than it saves.
-constexpr size_t kFewFromBothEnds = 4096;
 
 V3d middleOfOctant(const Box3d& box, size_t octant) {
   const auto at = [&](int axis, size_t bit) {
@@ -102,14 +76,14 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
     size_t node;
     std::span<const uint32_t> places;
   };
-  const bool fromBothEnds = tree_.order.size() <= kFewFromBothEnds;
+  const bool fromBothEnds = tree_.order.size() <= tuning::HiddenBoxes::kFewFromBothEnds;
   std::vector<std::span<const uint32_t>> visible;
-  // Large groups are tested first. Groups that remain after kMostTests tests are treated as visible.
+  // Large groups are tested first. Groups that remain after the last test are treated as visible.
   std::vector<Some> all{{0, places}};
   for (size_t i = 0; i < all.size(); ++i) {
     const auto [index, some] = all[i];
     const BoxTree::Node& node = tree_.nodes[index];
-    const bool done = i >= kMostTests;
+    const bool done = i >= tuning::HiddenBoxes::kMostTests;
     if (some.empty() || (!done && blockers_->hides(region, node.box, known, fromBothEnds))) continue;
     if (done || node.second == 0) {
       visible.push_back(some);
@@ -130,13 +104,13 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
 std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Region& region) const {
   std::vector<std::pair<KnownBlocker, size_t>> found;
   const double widest = region.box.size()[static_cast<int>(region.box.majorAxis())];
-  const size_t step = std::max<size_t>(1, region.places->size() / kProbes);
+  const size_t step = std::max<size_t>(1, region.places->size() / tuning::HiddenBoxes::kProbes);
   size_t probes = 0, hidden = 0;
   for (size_t i = 0; i < region.places->size(); i += step, ++probes)
     blockers_->anyBetween(middleOfOctant(region.box, probes), tree_.boxOf((*region.places)[i]).center(),
                           [&](const KnownBlocker& blocker) {
                             const Blocker::Whole& whole = blockers_->wholeOf(*blocker);
-                            if (widest < kWorthDividing * whole.size) return true;
+                            if (widest < tuning::HiddenBoxes::kWorthDividing * whole.size) return true;
                             ++hidden;
                             const auto same = std::ranges::find_if(found, [&](const auto& f) {
                               const auto* area = blockers_->wholeOf(*f.first).area;
@@ -148,8 +122,8 @@ std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Regio
                               found.emplace_back(blocker, 1);
                             return true;
                           });
-  if (hidden * step < kLeastHidden ||
-      static_cast<double>(hidden) < kWorthHiding * static_cast<double>(probes))
+  if (hidden * step < tuning::HiddenBoxes::kLeastHidden ||
+      static_cast<double>(hidden) < tuning::HiddenBoxes::kWorthHiding * static_cast<double>(probes))
     return {};
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -163,7 +137,7 @@ std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Regio
 // more boxes below are hidden by the floor: a strip is therefore divided again by distance from the polygon.
 // Without a large polygon, a region is divided in the middle.
 void HiddenBoxes::divide(Region& region) const {
-  if (region.places->size() <= kLeastHidden) return;
+  if (region.places->size() <= tuning::HiddenBoxes::kLeastHidden) return;
   const auto found = blockersIn(region);
   if (found.empty()) return;
   const Box3d& box = region.box;
@@ -187,7 +161,7 @@ void HiddenBoxes::divide(Region& region) const {
   const auto divideAwayFrom = [&](int axis, const Box3d& polygon) {
     const double below = box.min[axis] - polygon.max[axis], above = polygon.min[axis] - box.max[axis];
     const double near = std::max(below, above);
-    if (!(near > 0 && near + box.size()[axis] > kSameDistance * near)) return false;
+    if (!(near > 0 && near + box.size()[axis] > tuning::HiddenBoxes::kSameDistance * near)) return false;
     const double apart = std::sqrt(near * (near + box.size()[axis]));
     region.axis = axis;
     region.at = below > 0 ? polygon.max[axis] + apart : polygon.min[axis] - apart;
@@ -222,13 +196,13 @@ const HiddenBoxes::Region& HiddenBoxes::half(const Region& region, int upper) co
   made->inVain = region.inVain;
   made->before = region.before;
   const double share = made->box.size()[region.axis] / region.box.size()[region.axis];
-  if (share > kSameRegion && region.untested < kMostUntested) {
+  if (share > tuning::HiddenBoxes::kSameRegion && region.untested < tuning::HiddenBoxes::kMostUntested) {
     made->untested = region.untested + 1;
     divide(*made);
   }
   if (made->axis < 0) {
     findVisible(*made);
-    if (made->inVain < kMostInVain) divide(*made);
+    if (made->inVain < tuning::HiddenBoxes::kMostInVain) divide(*made);
   }
   region.ready[which].store(made.get(), std::memory_order_release);
   region.halves[which] = std::move(made);

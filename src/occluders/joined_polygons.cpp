@@ -7,23 +7,14 @@
 #include <numbers>
 #include <numeric>
 
+#include "occluders/tuning.h"
+
 namespace rsphere {
 namespace {
 
-// Polygons whose size is below this fraction of the scene's are not joined: a slab has few such pieces, while
-// furniture has many.
-constexpr double kLeastSize = 1. / 4096;
-// Polygons with more vertices are not joined, because each of their edges is compared with all others.
-constexpr uint32_t kMostVertices = 1024;
 // To find polygons in one plane, normals are rounded to multiples of this, and so are offsets, in units in
 // which Scene::samePlace is kSamePlace. Decimal fractions are rarely halfway between two multiples.
 constexpr double kSameNumber = 1.2345678e-6;
-
-// Cap on the edges that are compared to find outlines, for each vertex in a plane. Looking up a point
-// counts as kPerPoint edges. Slabs and walls stay far below the cap. Where it is exceeded, because a great
-// number of long polygons cross one another, none are joined.
-constexpr size_t kPerPoint = 32;
-constexpr size_t kMostCompared = 1024;
 
 // The largest distance between polygons that touch, relative to their coordinates. It is a few times the
 // rounding of coordinates, and the tracer lets no ray pass between such polygons (meetsInside()).
@@ -185,7 +176,7 @@ class JoinedPolygons::Joining {
       const auto corners = cornersOf(i);
       for (size_t e = 0; e < corners.size(); ++e)
         findOutline(i, {corners[e], corners[(e + 1) % corners.size()]}, outline);
-      if (compared_ > kMostCompared * vertices) return {};
+      if (compared_ > tuning::JoinedPolygons::kMostCompared * vertices) return {};
     }
     Areas result;
     std::vector<size_t> areaOf(polygons_.size());
@@ -245,7 +236,7 @@ class JoinedPolygons::Joining {
       std::array<bool, 2> opaque{};
       for (size_t side = 0; side < 2; ++side) {
         const V3d point = middle + (side == 0 ? near : -near) * across;
-        compared_ += kPerPoint;
+        compared_ += tuning::JoinedPolygons::kPerPoint;
         tree_.any(Box3d(point), [&](uint32_t i) {
           if (!inside(polygon(polygons_[i]), scene_.vertices, point)) return false;
           opaque[side] = true;
@@ -322,11 +313,12 @@ JoinedPolygons::~JoinedPolygons() = default;
 static_assert(kShapes == 8, "Does a new shape hide what is behind it?");
 void JoinedPolygons::sort() const {
   const Box3d& all = tracer_.bounds();
-  const double least = kLeastSize * all.size()[static_cast<int>(all.majorAxis())];
+  const double least = tuning::JoinedPolygons::kLeastSize * all.size()[static_cast<int>(all.majorAxis())];
   for (const SurfaceId id : scene_.outermostIds()) {
     const Surface surface = scene_.surfaces[id];
     const auto* const polygon = surface.shape.as<Polygon>();
-    if (!polygon || !polygon->hasArea || polygon->extent < least || polygon->vertices > kMostVertices)
+    if (!polygon || !polygon->hasArea || polygon->extent < least ||
+        polygon->vertices > tuning::JoinedPolygons::kMostVertices)
       continue;
     if (tracer_.stopsShadows(id, true) || tracer_.stopsShadows(id, false))
       polygons_.push_back({planeOf(*polygon, scene_.samePlace), id});
@@ -369,7 +361,7 @@ JoinedPolygons::Plane JoinedPolygons::groupsOf(std::span<const InPlane> plane, d
       ++compared;
       return false;
     });
-    if (compared > kMostCompared * polygons.size()) return {};
+    if (compared > tuning::JoinedPolygons::kMostCompared * polygons.size()) return {};
   }
   for (uint32_t i = 0; i < polygons.size(); ++i) {
     const uint32_t leader = joined.first(i);

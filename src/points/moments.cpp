@@ -6,15 +6,11 @@
 #include <numbers>
 
 #include "base/colorimetry.h"
+#include "points/tuning.h"
 
 namespace rsphere {
 namespace {
 
-// If a zone gets a share of a cell, its variance is this factor times share (1 - share) times the squared
-// light of the cell. The factor is not 0, because the division of the cell is approximate: the cell is
-// represented by a few points of a disk. Measured where radiance is even. It is 1 for cells in which the
-// direction may be anywhere.
-constexpr double kBorder = .05;
 // sr, smaller than any bin. Avoids a division by 0 for bins without directions.
 constexpr double kLeastSolidAngle = 1e-12;
 
@@ -26,7 +22,8 @@ void Moments::add(const V3d& d, const Irradiance& part, const SpectralSampling* 
     zones->divide(d, cell, [&](size_t zone, double share) {
       ofZones[zone].color.addScaled(part.color, share);
       if (share < 1)
-        borders[zone].addScaled(part.color * part.color, share * (1 - share) * (isEven ? kBorder : 1));
+        borders[zone].addScaled(part.color * part.color,
+                                share * (1 - share) * (isEven ? tuning::Moments::kBorder : 1));
     });
   total += part;
   cylindrical.color.addScaled(part.color, std::sqrt(std::max(0., 1 - d.z * d.z)));

@@ -50,4 +50,13 @@ struct ErrorEstimate {
   static constexpr double kLeastShared = .5;
 };
 
+// Light in zones (moments.cpp).
+struct Moments {
+  // If a zone gets a share of a cell, its variance is this factor times share (1 - share) times the squared
+  // light of the cell. The factor is not 0, because the division of the cell is approximate: the cell is
+  // represented by a few points of a disk. Measured where radiance is even. It is 1 for cells in which the
+  // direction may be anywhere.
+  static constexpr double kBorder = .05;
+};
+
 }  // namespace rsphere::tuning

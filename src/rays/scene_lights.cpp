@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "rad_parser/printable.h"
+#include "rays/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -39,10 +40,6 @@ Box3d boxOf(const Scene& scene, const LightSource& light) {
   box.extendBy(light.center + reach);
   return box;
 }
-
-// Up to this number of sources, sampling all of them takes less time than finding those that are hidden
-// (measured).
-constexpr size_t kFewSources = 16;
 
 std::vector<Box3d> boxesOf(const Scene& scene, const LightSources& lights) {
   std::vector<Box3d> boxes;
@@ -82,7 +79,8 @@ SceneLights::SceneLights(const Scene& scene, const Tracer& tracer, const Surface
     : LightSources(scene, relays, functions, warn),
       presumedShadows_(scene, tracer, *this),
       choice_(scene, *this),
-      hidden_(std::make_shared<const Blockers>(scene, tracer), boxesOf(scene, *this), kFewSources),
+      hidden_(std::make_shared<const Blockers>(scene, tracer), boxesOf(scene, *this),
+              tuning::SceneLights::kFewSources),
       ofMists_(scene, *this, warn),
       luminous_(scene.surfaces.size()) {
   constantRadiance_.resize(all().size());

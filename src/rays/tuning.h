@@ -14,4 +14,11 @@ struct SharedHighlights {
   RSPHERE_DERIVED(SharedHighlights, double, kLeast, .25);
 };
 
+// The light sources of a scene (scene_lights.cpp).
+struct SceneLights {
+  // Up to this number of sources, sampling all of them takes less time than finding those that are hidden
+  // (measured).
+  static constexpr size_t kFewSources = 16;
+};
+
 }  // namespace rsphere::tuning

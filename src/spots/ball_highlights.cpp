@@ -76,7 +76,7 @@ void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& 
     const Ball& ball = balls_[number];
     const V3d way = ball.sphere.center - point;
     const double distance = way.length();
-    if (!(distance > Highlight::kApart * ball.sphere.radius)) continue;
+    if (!(distance > tuning::Highlights::kApart * ball.sphere.radius)) continue;
     const double cosine = std::clamp((way.dot(front) + ball.sphere.radius) / distance, 0., 1.);
     const double toImage = distance - ball.sphere.radius / 2, falloff = cosine / (toImage * toImage);
     if (!(ball.hot * falloff > least)) continue;
@@ -112,7 +112,8 @@ bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d&
   if (!(cosine > 0)) return false;
   // The length of bisector is twice its cosine with both directions.
   const double most =
-      (Highlight::kReach * ball.roughness + angle / std::max(cosine, tuning::Highlights::kEdgeOn)) * cosine;
+      (tuning::Highlights::kReach * ball.roughness + angle / std::max(cosine, tuning::Highlights::kEdgeOn)) *
+      cosine;
   return bisector.length2() - cosine * cosine <= most * most;
 }
 

@@ -17,27 +17,6 @@ namespace {
 // distinguished from points.
 constexpr float kNarrowest = 1e-6f;
 
-// Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only the
-// relative power of spots matters.
-constexpr double kTransmittance = .9;
-
-// The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
-constexpr size_t kFewest = 12;
-
-// Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n evenly
-// distributed points is smaller than the region that contains them, on average by (n - 1) / (n + 1). For the
-// fewest particles the correction is 1.18.
-constexpr double kWider = 1.15;
-
-// No rays are aimed at a spot if the squared distance to its center is below this number of squared radii. At
-// that distance, the formula for a small surface makes a disk 1.5 times as bright as it is: it uses 1 / d^2
-// instead of 1 / (d^2 + r^2).
-constexpr float kApart = 2;
-
-// Surface area of a room, divided by the square of the mean distance across it. The mean chord of a convex
-// body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
-constexpr double kRoomSurface = 20;
-
 V3d onDisk(const V3d& normal, double radius, double angle) {
   V3d x, y;
   frame(normal, x, y);
@@ -70,7 +49,7 @@ struct BrightSpots::Node {
     std::sort(sides.begin(), sides.end());
     area = std::max(sides[1], samePlace) * std::max(sides[2], samePlace);
     spot.center = box.center();
-    spot.radius = std::max(.5 * kWider * box.size().length(), 4 * samePlace);
+    spot.radius = std::max(.5 * tuning::BrightSpots::kWider * box.size().length(), 4 * samePlace);
     for (const Particle& p : some) {
       if (p.free < spot.radius) continue;  // in a narrow gap, whose light reaches no other surface
       spot.power += p.power;
@@ -103,7 +82,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
                                                           double power, Random& random) {
   const auto last = beyondPanes(scene, tracer, origin, direction, [&](const Surface& surface) {
     if (!std::holds_alternative<Glass>(*scene.materialOf(surface))) return false;
-    power *= kTransmittance;
+    power *= tuning::BrightSpots::kTransmittance;
     return true;
   });
   if (!last || last->hit.surface == kNone) return {};
@@ -164,11 +143,11 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
     std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
     std::vector<double> free;
     for (const Particle& p : inside) free.push_back(p.free);
-    if (free.size() >= kFewest) {
+    if (free.size() >= tuning::BrightSpots::kFewest) {
       const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
       std::nth_element(free.begin(), middle, free.end());
-      for (const Node& node : find(inside, kRoomSurface * *middle * *middle, tuning::Caps::kAimed / 2,
-                                   tuning::BrightSpots::kBrighter / 2, 1))
+      for (const Node& node : find(inside, tuning::BrightSpots::kRoomSurface * *middle * *middle,
+                                   tuning::Caps::kAimed / 2, tuning::BrightSpots::kBrighter / 2, 1))
         sunlit_.push_back(node.sunlit());
     }
   }
@@ -195,7 +174,7 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   };
   std::vector<Branch> tree{{Node(all, samePlace_)}};
   for (size_t i = 0; i < tree.size(); ++i) {
-    if (tree[i].node.particles.size() < 2 * kFewest) continue;
+    if (tree[i].node.particles.size() < 2 * tuning::BrightSpots::kFewest) continue;
     auto halves = tree[i].node.halves();
     tree[i].halves = tree.size();
     tree.push_back({std::move(halves.first)});
@@ -257,7 +236,8 @@ RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const AimFrom& from, Aim& aim) 
     const float facing =
         spots_.anyway[i] - (x * spots_.normalX[i] + y * spots_.normalY[i] + z * spots_.normalZ[i]) * inverse;
     const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
-    const float apart = squared > kApart * spots_.radius[i] * spots_.radius[i] ? 1.f : 0.f;
+    const float apart =
+        squared > tuning::BrightSpots::kApart * spots_.radius[i] * spots_.radius[i] ? 1.f : 0.f;
     comes[i] = apart * spots_.power[i] * before * seen * inverse * inverse;
     aim.x[i] = x;
     aim.y[i] = y;

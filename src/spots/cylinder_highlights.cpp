@@ -10,9 +10,6 @@
 namespace rsphere {
 namespace {
 
-// Places along a cylinder from which shadow rays are sent to a source, as fractions of its length.
-constexpr double kPlaces[] = {.5, .1, .9};
-
 V3d across(const Cone& cylinder, const V3d& way) { return way - way.dot(cylinder.axis) * cylinder.axis; }
 
 V3d nearestOnAxis(const Cone& cylinder, const V3d& place) {
@@ -79,13 +76,14 @@ CylinderHighlights::Cylinder CylinderHighlights::lit(const Cone& shape, const Op
   }
   keepLargest(candidates, kMost, [](const Candidate& c) { return c.bright; });
   for (const Candidate& c : candidates) {
-    const bool seen = std::any_of(std::begin(kPlaces), std::end(kPlaces), [&](double share) {
-      const V3d place = shape.base + share * shape.length * shape.axis;
-      const V3d out = across(shape, c.part.lighting.part.towards(place));
-      const double length = out.length();
-      return length > (c.part.lighting.part.distant ? 0 : radius) &&
-             seesPart(tracer, c.part.lighting, place + (radius + 2 * tracer.samePlace()) / length * out);
-    });
+    const bool seen = std::any_of(
+        std::begin(tuning::Highlights::kPlaces), std::end(tuning::Highlights::kPlaces), [&](double share) {
+          const V3d place = shape.base + share * shape.length * shape.axis;
+          const V3d out = across(shape, c.part.lighting.part.towards(place));
+          const double length = out.length();
+          return length > (c.part.lighting.part.distant ? 0 : radius) &&
+                 seesPart(tracer, c.part.lighting, place + (radius + 2 * tracer.samePlace()) / length * out);
+        });
     if (!seen) continue;
     cylinder.hot += c.part.hot;
     cylinder.parts.push_back(c.part);
@@ -108,7 +106,7 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
     if (!(way.dot(front) + std::max(0., shape.length * shape.axis.dot(front)) > -radius)) continue;
     const V3d at = across(shape, -way);
     const double height = -way.dot(shape.axis);
-    if (!(at.length2() > Highlight::kApart * Highlight::kApart * radius * radius)) continue;
+    if (!(at.length2() > tuning::Highlights::kApart * tuning::Highlights::kApart * radius * radius)) continue;
     const double enough = leastOfOne * (point - nearestOnAxis(shape, point)).length();
     for (const Part& p : cylinder.parts) {
       if (aim.count == tuning::Caps::kAimed / 2) break;
@@ -116,7 +114,8 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const SourcePart& part = p.lighting.part;
       const V3d to = part.distant ? part.center : part.center - shape.base, side = across(shape, to);
       const double beside = side.length();
-      if (!(beside > (part.distant ? tuning::Highlights::kEdgeOn : Highlight::kApart * radius))) continue;
+      if (!(beside > (part.distant ? tuning::Highlights::kEdgeOn : tuning::Highlights::kApart * radius)))
+        continue;
       const V3d normal = mirroringNormal({.center = V3d(0, 0, 0), .radius = radius}, at,
                                          part.distant ? side / beside : side, part.distant);
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
@@ -161,8 +160,9 @@ bool CylinderHighlights::meets(const Cone& cylinder, const V3d& point, const V3d
 V3d CylinderHighlights::sample(const Aim& aim, double u1, double u2, double u3) const {
   const size_t i = aim.chosen(u1);
   const V3d direction = aim.lobe[i].sample(u2, u3);
-  const bool counts = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach) > 0 &&
-                      meets(cylinders_[aim.number[i]].shape, aim.point, direction);
+  const bool counts =
+      aim.lobe[i].density(direction, tuning::Highlights::kReach * tuning::Highlights::kReach) > 0 &&
+      meets(cylinders_[aim.number[i]].shape, aim.point, direction);
   return counts ? direction : V3d(0, 0, 0);
 }
 
@@ -171,7 +171,8 @@ double CylinderHighlights::density(const Aim& aim, const V3d& direction) const {
   uint32_t last = ~0u;
   bool met = false;
   for (size_t i = 0; i < aim.count; ++i) {
-    const double density = aim.lobe[i].density(direction, Highlight::kReach * Highlight::kReach);
+    const double density =
+        aim.lobe[i].density(direction, tuning::Highlights::kReach * tuning::Highlights::kReach);
     if (!(density > 0)) continue;
     if (aim.number[i] != last) {
       last = aim.number[i];

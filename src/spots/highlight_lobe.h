@@ -4,6 +4,7 @@
 
 #include "base/constants.h"
 #include "spots/source_parts.h"
+#include "spots/tuning.h"
 
 namespace rsphere {
 
@@ -56,14 +57,6 @@ struct Bend {
 //
 // Source: Ward, "Measuring and modeling anisotropic reflection" (SIGGRAPH 1992), which defines the roughness.
 struct Highlight {
-  // No direction is aimed where the density of a highlight is below exp(-kReach^2) = 1e-4 of its peak. For a
-  // small source, this happens in Ward's model if the angle between the normal and the bisector of the
-  // directions to point and source exceeds this multiple of the roughness.
-  static constexpr double kReach = 3;
-  // No rays are aimed at a ball or cylinder if the distance to its center or axis is below this number of
-  // radii, because the formulas divide by 0 on its surface.
-  static constexpr double kApart = 1.02;
-
   HighlightLobe lobe;  // wider than the highlight by the factor tuning::Highlights::kWider
   // The solid angle of the part's image on a smooth surface, divided by the solid angle of the part as seen
   // from `at`.

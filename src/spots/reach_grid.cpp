@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spots/tuning.h"
+
 namespace rsphere {
 namespace {
-
-// Number of cells along the longest side of the scene. With this number, the grid takes half a megabyte. With
-// fewer cells, points where no object matters would take more time.
-constexpr int kReachCells = 32;
 
 double distance(const V3d& point, const ReachGrid::Reach& reach) {
   const V3d along = reach.end - reach.begin, way = point - reach.begin;
@@ -23,7 +21,7 @@ ReachGrid::ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds) : l
   if (reaches.empty()) return;
   const V3d size = bounds.size();
   const double widest = std::max({size.x, size.y, size.z});
-  const double cell = widest > 0 ? widest / kReachCells : 1;
+  const double cell = widest > 0 ? widest / tuning::Highlights::kReachCells : 1;
   perLength_ = 1 / cell;
   for (int i = 0; i < 3; ++i)
     counts_[i] = static_cast<size_t>(std::max(1., std::ceil(size[i] * perLength_ - 1e-9)));

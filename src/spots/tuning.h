@@ -29,6 +29,22 @@ struct BrightSpots {
   // Insensitive. For light that enters through openings, no minimum worth is required; in the sunlit
   // classroom the relative worth is 2.3.
   RSPHERE_DERIVED(BrightSpots, double, kBrighter, 5);
+  // Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only
+  // the relative power of spots matters.
+  static constexpr double kTransmittance = .9;
+  // The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
+  static constexpr size_t kFewest = 12;
+  // Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n
+  // evenly distributed points is smaller than the region that contains them, on average by (n - 1) / (n +
+  // 1). For the fewest particles the correction is 1.18.
+  static constexpr double kWider = 1.15;
+  // No rays are aimed at a spot if the squared distance to its center is below this number of squared radii.
+  // At that distance, the formula for a small surface makes a disk 1.5 times as bright as it is: it uses 1 /
+  // d^2 instead of 1 / (d^2 + r^2).
+  static constexpr float kApart = 2;
+  // Surface area of a room, divided by the square of the mean distance across it. The mean chord of a convex
+  // body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
+  static constexpr double kRoomSurface = 20;
 };
 
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed (highlights.h,
@@ -68,6 +84,18 @@ struct Highlights {
   // have no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a
   // cylinder's axis and a distant source. Insensitive.
   static constexpr double kEdgeOn = .05;
+  // No direction is aimed where the density of a highlight is below exp(-kReach^2) = 1e-4 of its peak. For a
+  // small source, this happens in Ward's model if the angle between the normal and the bisector of the
+  // directions to point and source exceeds this multiple of the roughness.
+  static constexpr double kReach = 3;
+  // No rays are aimed at a ball or cylinder if the distance to its center or axis is below this number of
+  // radii, because the formulas divide by 0 on its surface.
+  static constexpr double kApart = 1.02;
+  // Places along a cylinder from which shadow rays are sent to a source, as fractions of its length.
+  static constexpr double kPlaces[] = {.5, .1, .9};
+  // Number of cells along the longest side of the scene. With this number, the grid takes half a megabyte.
+  // With fewer cells, points where no object matters would take more time.
+  static constexpr int kReachCells = 32;
 };
 
 }  // namespace rsphere::tuning

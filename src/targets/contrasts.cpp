@@ -97,11 +97,6 @@ std::vector<Box3d> boxesOf(const Scene& scene, std::span<const SpecialObject> ob
   return boxes;
 }
 
-// Points in one region share measurements. The region is the widest one around a point from which at most
-// this many times as many objects can be seen as from the point. With 1, 4 and 16, four means in a tower take
-// equal times within noise; with 1, more than four points would share fewer measurements.
-constexpr size_t kWider = 2;
-
 }  // namespace
 
 // The objects that can be seen from a region, by modifier.
@@ -144,8 +139,8 @@ Contrasts::Contrasts(const SphereTracing& tracing, std::span<const SpecialObject
 Contrasts::View Contrasts::from(const V3d& point) const {
   const std::span<const uint32_t> own = hidden_.notHiddenFrom(point);
   // Wider regions share their measurements among more points.
-  const std::span<const uint32_t> wide =
-      hidden_.widestWhere(point, [&](auto some) { return some.size() <= kWider * own.size(); });
+  const std::span<const uint32_t> wide = hidden_.widestWhere(
+      point, [&](auto some) { return some.size() <= tuning::Contrasts::kWider * own.size(); });
   const std::lock_guard lock(making_);
   auto& region = regions_[wide.data()];
   if (!region) region = std::make_shared<const Region>(wide, alikeOf_);

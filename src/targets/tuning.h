@@ -14,6 +14,10 @@ struct Contrasts {
   // separate rays for each object, the start took 1.1 s instead of .05 s. Insensitive.
   RSPHERE_DERIVED(Contrasts, size_t, kRays, 64);
   static constexpr size_t kRaysToAll = 1024;
+  // Points in one region share measurements. The region is the widest one around a point from which at most
+  // this many times as many objects can be seen as from the point. With 1, 4 and 16, four means in a tower
+  // take equal times within noise; with 1, more than four points would share fewer measurements.
+  static constexpr size_t kWider = 2;
 };
 
 // The regions that get extra directions (targets.cpp).

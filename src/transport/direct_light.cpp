@@ -8,6 +8,7 @@
 #include "rays/ray_functions.h"
 #include "rays/ray_hit.h"
 #include "transport/ray_limits.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -15,20 +16,9 @@ namespace {
 // Number of the brightest contributions that are always tested for shadows, whatever -dt is, as in RADIANCE.
 constexpr size_t kAlwaysTested = 2;
 
-// With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample is
-// then spread over more than half of its source.
-constexpr double kWideJitter = .5;
-
 // Up to this number, contributions are ranked by comparing all pairs without branches. The n^2 / 2
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
-// Up to this number of sources, a glimpse samples all of them. With 32, sensors in a tower with stairwells
-// start in 3.4 instead of .9 s; with 512, sensors in a tower without stairwells in 1.0 instead of .6 s.
-constexpr size_t kFewOfGlimpse = 128;
-// Of more sources, a glimpse samples up to this constant times the square root of their number. Where a
-// stairwell of 160 storeys shows a lamp of each storey, sensors start in 3.5 s instead of 130 s without this
-// rule; with 8, in 2.2 s, but without stairwells in 1.8 instead of 1.0 to 1.3 s.
-constexpr size_t kManyOfGlimpse = 5;
 
 // Kinds of sources. The visibility of each kind is estimated separately, because their causes of occlusion
 // differ.
@@ -192,9 +182,11 @@ void DirectLight::rankByBrightness(uint32_t count) {
 std::span<const uint32_t> DirectLight::notHiddenFrom(const V3d& point, const V3d& front) const {
   const HiddenBoxes& hidden = t_.lights().hidden();
   if (!state_.glimpses) return hidden.notHiddenFrom(point, front);
-  const size_t most = kManyOfGlimpse * kManyOfGlimpse * hidden.all().size();
-  return hidden.widestWhere(
-      point, [&](auto some) { return some.size() <= kFewOfGlimpse || some.size() * some.size() <= most; });
+  const size_t most =
+      tuning::DirectLight::kManyOfGlimpse * tuning::DirectLight::kManyOfGlimpse * hidden.all().size();
+  return hidden.widestWhere(point, [&](auto some) {
+    return some.size() <= tuning::DirectLight::kFewOfGlimpse || some.size() * some.size() <= most;
+  });
 }
 
 // Fills the scratch memory with the unoccluded contributions of all source samples, except black ones.
@@ -204,8 +196,8 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const RayOptions& o = t_.options();
   scratch_.samples.clear();
   const PathContext& ray = at.end.context;
-  const bool divides =
-      o.sourceSubstructuring > kNegligible && !(isOfGather(settings_, ray) && o.directJitter > kWideJitter);
+  const bool divides = o.sourceSubstructuring > kNegligible &&
+                       !(isOfGather(settings_, ray) && o.directJitter > tuning::DirectLight::kWideJitter);
   // Not needed after indirect bounces and in sphere mode, where the noise averages out.
   const bool splitsBalls = isRayMode(settings_.mode) && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
