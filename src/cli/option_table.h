@@ -183,8 +183,8 @@ std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry
 // The text of -help: one line for each option.
 std::string helpText(const Options& options);
 
-// The text of -features for the words after it, and the first of these features that this program lacks.
-// features: Companion::features.
+// The answer to -features. text: what it prints. missing: the first feature among the words after it that
+// this program lacks. features: Companion::features.
 struct FeatureReport {
   std::string text, missing;
 };

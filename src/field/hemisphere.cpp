@@ -159,7 +159,7 @@ Radiance GatheredLight::meanOfTilted(const V3d& normal, const V3d& perturbed) co
   if ((after - before).length2() < 1e-12F) return Radiance(color());
   V3f result;
   for (int c = 0; c < 3; ++c) {
-    // The mean is known more accurately than its moments, which only give the ratio.
+    // The moments give only the ratio of the two means, since `mean` is more accurate than they are.
     const float straight = tilted.towards(before, c);
     const float ratio = straight > 0 ? tilted.towards(after, c) / straight : 0;
     // Upper bound: all light arrives from the direction of the perturbed normal.

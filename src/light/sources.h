@@ -29,8 +29,8 @@ struct SourceSampling {
   // Normal (unit) of the surface at the point. Sources that lie entirely behind its plane are omitted; 0:
   // none is omitted.
   V3d front{0, 0, 0};
-  // Balls are split too if they are jittered. rtrace never splits them, and where many rays are averaged
-  // splitting does not pay.
+  // Whether balls are split, too, if they are jittered. rtrace never splits balls. Where many rays are
+  // averaged, splitting them does not pay.
   bool splitsBalls = false;
   // Jittered samples of a cylinder lie on the side that faces the point. If false, they lie in the plane
   // through its axis as in rtrace. Rays aimed past the rim then miss, and a short wide cylinder loses much of

@@ -52,7 +52,7 @@ inline Owner ownerOf(LightPart part, const OwnedRay& ray) {
   return Owner::eye;
 }
 
-// How the light at a place is known to rays that start there, given who owns its indirect light.
+// RayEnd::known for the rays that gather indirect light at a place, given who owns that light.
 inline Known knownAfter(Owner indirect) { return indirect == Owner::here ? Known::unjoined : Known::joined; }
 
 }  // namespace rsphere

@@ -30,9 +30,8 @@ class VertexClusters {
   // The bounding box of each cluster.
   static std::vector<Box3d> boxesOf(std::span<const LightVertex> vertices, std::span<const uint32_t> ends);
 
-  // The vertices must be in the order of orderOf(), with its ends. Keeps the span of vertices. width:
-  // NearLight::width, world units. uneven: as for orderOf(). hidden: made from boxesOf(); empty if little is
-  // hidden.
+  // vertices: sorted by orderOf(), which gives `ends`; keeps the span. width: NearLight::width, world units.
+  // uneven: as for orderOf(). hidden: of the boxes of boxesOf(); empty if little is hidden.
   VertexClusters(std::span<const LightVertex> vertices, std::span<const uint32_t> ends, double width,
                  bool uneven, std::optional<HiddenBoxes> hidden = {});
 

@@ -6,8 +6,8 @@
 
 namespace rsphere {
 
-// The continuation of a ray beyond a boundary of mist. If the ray leaves a mist in which it started, that
-// mist is also added to the ray's own space. Throws rad::Error if too many sources are scattered.
+// The continuation of a ray beyond a boundary of mist. If the ray leaves a mist that it has not entered, it
+// started inside, and its own space gets that mist, too. Throws rad::Error if too many sources are scattered.
 NextRay beyondMist(const PreparedScene& prepared, const CrossesMist& boundary, RayEnd& end);
 
 // Determines which surfaces are cut away beyond a boundary of antimatter. Returns whether the ray hits the

@@ -198,7 +198,7 @@ class Tracer::Tree {
     return face.hasArea || planeNormal(scene_.surfaces.shapeOf(face)) ? primitive : kNoBlocker;
   }
 
-  // The owner of hits on a surface, if that is the surface itself.
+  // The owner of hits that are attributed to a surface itself, not to an instance or mesh around it.
   Owner ownerOf(SurfaceId surface) const {
     return {&occluders_[scene_.surfaces.face(surface).finish], surface};
   }
