@@ -18,7 +18,7 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
 
 double Portals::leaving(const V3d& origin, const V3d& direction, double farthest) const {
   double nearest = farthest;
-  for (const Opening& p : portals_) nearest = std::min(nearest, distanceTo(p, origin, direction));
+  for (const Opening& p : portals_) nearest = std::min(nearest, distanceTo(p, origin, direction, nearest));
   return nearest < farthest ? nearest : kFarAway;
 }
 

@@ -37,11 +37,12 @@ Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> po
   return r;
 }
 
-double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction) {
+double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction, double farthest) {
   const double cosine = -direction.dot(r.normal);
   if (!(cosine > 0)) return kFarAway;
   const double distance = r.above(origin) / cosine;
-  return distance >= 0 && contains(r, origin + distance * direction) ? distance : kFarAway;
+  const bool meets = distance >= 0 && distance < farthest && contains(r, origin + distance * direction);
+  return meets ? distance : kFarAway;
 }
 
 double densityTo(const Rectangle& r, const V3d& point, const V3d& direction) {

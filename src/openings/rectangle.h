@@ -49,8 +49,9 @@ double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V
   return factor / 5 * filled / kPi;
 }
 
-// The distance at which a ray (direction: unit) meets the front of the rectangle; kFarAway if it does not.
-double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction);
+// The distance at which a ray (direction: unit) meets the front of the rectangle; kFarAway if it does not
+// within `farthest`.
+double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction, double farthest = kFarAway);
 
 // The density per sr, in a direction from a point, of the directions to uniformly distributed points on the
 // rectangle's front.
