@@ -1,7 +1,5 @@
 #include "transport/find_aims.h"
 
-#include "transport/find_openings.h"
-
 namespace rsphere {
 namespace {
 

@@ -17,4 +17,8 @@ FoundAims findAimsOfGathers(const PreparedScene& prepared);
 // that enters through them. With indirect light: none, because its gathers have aims.
 FoundAims findAimsOfPoints(const PreparedScene& prepared);
 
+// Finds panes and holes in walls (openings/holes.h), and traces some paths on both sides of each to determine
+// whether daylight enters through it (find_openings.cpp). Empty if there are no openings.
+Openings findOpenings(const PreparedScene& prepared);
+
 }  // namespace rsphere

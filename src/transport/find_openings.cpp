@@ -1,5 +1,3 @@
-#include "transport/find_openings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -10,6 +8,7 @@
 #include "openings/tuning.h"
 #include "shade/scattering.h"
 #include "trace/tracer.h"
+#include "transport/find_aims.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {

@@ -70,7 +70,7 @@ class PathTracer::Path final : public RayFollower {
       : t_(prepared),
         settings_(settings),
         shading_({prepared, settings_, state_, *this}),
-        media_(prepared, state_, shading_.direct()) {}
+        media_(prepared, state_, shading_.light().direct) {}
 
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
     state_ = {};
@@ -160,7 +160,7 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
 // The result of a ray whose hit is known.
 [[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
   RayResult result;
-  if (end.context.known != Known::no && shading_.leftToPortals(end)) return result;
+  if (end.context.known != Known::no && shading_.light().leftToPortals(end)) return result;
   if (const SurfaceId surface = end.hit.surface; surface != kNone) {
     result.unmirroredLength = end.hit.length;
     if (!shading_.shade(end, result) && !t_.scene().surfaces[surface].shape.as<Distant>()) result = pass(end);
@@ -215,7 +215,7 @@ TracedRay PathTracer::trace(const V3d& origin, const V3d& direction, double fart
   } else {
     result = path_->follow(end);
   }
-  path_->shading_.indirect().endPath();
+  path_->shading_.light().indirect.endPath();
   return path_->traced(end, result);
 }
 

@@ -1,13 +1,7 @@
 #pragma once
 // Shading of the surface that a ray hit: processes its chain of modifiers down to a material, including
 // mixtures, and adds up the light that the material's response requires (shade/material_response.h).
-#include "light_paths/owners.h"
-#include "light_paths/vertex_light.h"
-#include "rays/ray_follower.h"
-#include "shade/material_response.h"
-#include "transport/direct_light.h"
-#include "transport/indirect_light.h"
-#include "transport/specular_light.h"
+#include "transport/outgoing_light.h"
 
 namespace rsphere {
 
@@ -15,17 +9,13 @@ class SurfaceShading : PathPart {
  public:
   explicit SurfaceShading(const PathPart& path);
 
-  DirectLight& direct() { return light_.direct; }
-  IndirectLight& indirect() { return light_.indirect; }
+  // The light of the materials.
+  OutgoingLight& light() { return light_; }
 
   // Computes the radiance (W/sr/m2) at the end of a ray that hit a surface, and the mirrored part of it.
   // False, without any effect, if the ray passes the surface because antimatter cuts it away or because it
   // has no material.
   bool shade(RayEnd& end, RayResult& result);
-
-  // Whether paths from both ends estimate all of the light along a ray, because it leaves through a portal
-  // (portals.h).
-  bool leftToPortals(const RayEnd& end) const;
 
   // Implements RayFollower::shade().
   bool shadeChain(RayEnd& end, ModifierId modifier, RayResult& result);
@@ -57,7 +47,10 @@ class SurfaceShading : PathPart {
   bool estimate(RayEnd&, Absorbs, RayResult&) { return true; }
   bool estimate(RayEnd& end, Passes, RayResult& result);
   bool estimate(RayEnd& end, const Alternate& alternate, RayResult& result);
-  bool estimate(RayEnd& end, const Emits& emits, RayResult& result);
+  bool estimate(RayEnd& end, const Emits& emits, RayResult& result) {
+    light_.addEmitted(end, emits, result);
+    return true;
+  }
   bool estimate(RayEnd& end, const Boundary& boundary, RayResult& result);
   template <OneOf<ReflectsSharply, Redirects, Relays> Sharp>
   bool estimate(RayEnd& end, const Sharp& sharp, RayResult& result) {
@@ -67,37 +60,13 @@ class SurfaceShading : PathPart {
   bool estimate(RayEnd& end, const CrossesMist& boundary, RayResult& result);
   bool estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result);
   template <ScattersLight S>
-  bool estimate(RayEnd& end, S& scattering, RayResult& result);
-  // Who estimates the light that a surface reflects (owners.h).
-  struct Owners {
-    Owner ofSources = Owner::eye, highlight = Owner::eye, indirect = Owner::eye;
-    // Factor on the light that is left to paths from the eye although others own the known light; 0: they are
-    // not followed here.
-    double rest = 1;
-  };
-  bool leavesThroughPortal(const RayEnd& end) const;
-  Owners ownersAt(const RayEnd& end);
-  double restOf(const RayEnd& end, Owner indirect);
-  void addFromVertices(const RayEnd& end, const V3d& normal, const Coefficient& coefficient, Radiance& value);
-  void addFromSource(const RayEnd& end, const V3d& normal, Shown shown, Radiance& value);
-  template <ScattersLight S>
-  bool estimateLobes(const RayEnd& end, S& scattering, bool mayShare, RayResult& result);
-  template <ScattersLight S>
-  void estimateSide(const RayEnd& end, S& scattering, Component side, const Owners& owners,
-                    const PartOfLobe* partOfLobe, Radiance& value);
-  template <ScattersLight S>
-  Radiance lobesPart(const S& scattering, const RayEnd& sample) const;
-  template <ScattersLight S>
-  Coefficient lobesCoefficient(const S& scattering, const SourceSample& sample) const;
+  bool estimate(RayEnd& end, S& scattering, RayResult& result) {
+    light_.addScattered(end, scattering, result);
+    return true;
+  }
 
-  struct Parts {
-    DirectLight direct;
-    SpecularLight specular;
-    IndirectLight indirect;
-  };
-  Parts light_;
+  OutgoingLight light_;
   MaterialContext context_;
-  VertexLight::Scratch scratch_;
 };
 
 }  // namespace rsphere

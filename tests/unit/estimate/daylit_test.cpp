@@ -9,7 +9,7 @@
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/support/statistics.h"
-#include "transport/find_openings.h"
+#include "transport/find_aims.h"
 
 namespace rsphere::daylit_test {
 namespace {

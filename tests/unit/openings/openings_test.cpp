@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/find_openings.h"
+#include "transport/find_aims.h"
 
 namespace rsphere::openings_test {
 namespace {

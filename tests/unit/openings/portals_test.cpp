@@ -9,7 +9,7 @@
 #include "tests/unit/support/room_with_hole.h"
 #include "tests/unit/support/statistics.h"
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/find_openings.h"
+#include "transport/find_aims.h"
 
 namespace rsphere {
 namespace {

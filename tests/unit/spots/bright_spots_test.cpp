@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "tests/unit/transport/transport_fixture.h"
-#include "transport/find_openings.h"
+#include "transport/find_aims.h"
 
 namespace rsphere {
 namespace {
