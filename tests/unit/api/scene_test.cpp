@@ -137,6 +137,33 @@ TEST(Scene, PointsHaveTheBytesOfTheCommand) {
               &a.lightVector, &a.directions});
 }
 
+// A letter of the command without a member of PointAnswers would be read as a name.
+TEST(Scene, EveryLetterOfAPointHasItsQuantity) {
+  const Scene scene({kRoom});
+  const rsphere::Point point{.5, .5, 1};
+  Options options;
+  options.directions = 64;
+  options.zones = 2;
+  options.outputs = "!";
+  const std::string before = "the letters are ";
+  std::string letters = faultOf([&] { scene.sphere({&point, 1}, options); });
+  ASSERT_NE(letters.find(before), letters.npos) << letters;
+  letters = letters.substr(letters.find(before) + before.size());
+  letters =
+      letters.substr(0, letters.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"));
+  EXPECT_GT(letters.size(), 10u);
+  for (const char letter : letters) {
+    options.outputs = letter;
+    const rsphere::PointAnswers a = scene.sphere({&point, 1}, options);
+    int found = 0;
+    for (const Quantity* q : {&a.mean, &a.meanStandardError, &a.scalarIrradiance, &a.cylindricalIrradiance,
+                              &a.semicylindricalIrradiance, &a.hemisphericalIrradiance, &a.faceIrradiance,
+                              &a.lightVector, &a.directions, &a.zones, &a.zonesStandardError, &a.point})
+      found += q->columns > 0;
+    EXPECT_EQ(found, 1) << letter;
+  }
+}
+
 TEST(Scene, TakesAllOptionsOfTheCommand) {
   const Scene scene({kRoom});
   const std::vector<rsphere::Ray> rays = someRays();
