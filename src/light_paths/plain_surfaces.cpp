@@ -100,19 +100,19 @@ void PlainSurfaces::findSources() {
     knownSources_[i] = isKnown(i);  // images come after their sources, which isKnown() looks up
     coverage_.anySource = coverage_.anySource || knownSources_[i];
     coverage_.allSources = coverage_.allSources && knownSources_[i];
-    coverage_.allLit = coverage_.allLit && (knownSources_[i] || (!portals_.empty() && !isLit(lights[i])));
   }
 }
 
-// False for the image of a distant source in a mirror that it does not reach: at none of some points.
-bool PlainSurfaces::isLit(const LightSource& light) const {
-  if (!light.isVirtual() || !light.isDistant()) return true;
-  const LightSource& source = prepared_.lights().all()[light.relayed];
-  if (source.isVirtual()) return isLit(source);
-  Random random(light.surface.index());
+// Whether a distant source shines on the mirror of its image, but not through a portal: at one of some
+// points. Light paths do not carry this light.
+bool PlainSurfaces::isLitOutdoors(const LightSource& image) const {
+  const V3d& towards = prepared_.lights().all()[image.relayed].center;
+  Random random(image.surface.index());
   for (int i = 0; i < tuning::Caps::kProbes; ++i) {
-    const SurfacePoint at = samplePoint(scene_.surfaces[light.surface].shape, scene_.vertices, random);
-    if (!isBlack(passingToSource(at.point, source.center, kFarAway, light.surface))) return true;
+    const V3d at = samplePoint(scene_.surfaces[image.surface].shape, scene_.vertices, random).point;
+    if (!portals_.isLeft(at, towards, kFarAway) &&
+        !isBlack(passingToSource(at, towards, kFarAway, image.surface)))
+      return true;
   }
   return false;
 }
@@ -120,10 +120,12 @@ bool PlainSurfaces::isLit(const LightSource& light) const {
 static_assert(kLightForms == 8, "Are samples spread over all of it?");
 bool PlainSurfaces::isKnown(LightId source) const {
   const LightSource& light = prepared_.lights().all()[source];
-  if (!portals_.empty())
-    return light.isDistant() && !light.isVirtual() && prepared_.lights().constantRadiance(source);
-  if (light.isDistant() || light.reach > 0) return false;
-  if (light.isVirtual()) return finishOf(light.surface).mirror && knownSources_[light.relayed];
+  if (light.isDistant() == portals_.empty()) return false;
+  if (light.isVirtual())
+    return finishOf(light.surface).mirror && knownSources_[light.relayed] &&
+           !(light.isDistant() && isLitOutdoors(light));
+  if (light.isDistant()) return prepared_.lights().constantRadiance(source);
+  if (light.reach > 0) return false;
   const auto* const plane = light.as<PlaneLight>();
   // Not known: concave and bent polygons, parts of which samples miss. A ring that is a source has no hole.
   const bool isRing = plane && std::holds_alternative<PlaneLight::Disk>(plane->map);
@@ -135,6 +137,24 @@ bool PlainSurfaces::isKnown(LightId source) const {
   return prepared_.lights().constantRadiance(source) ||
          (surface.modifier == surface.material &&
           arePatterns(scene_, scene_.modifiers[surface.material].next, isLocal));
+}
+
+bool bringLightOf(LightId source, const PreparedScene& prepared, const PlainSurfaces& surfaces, V3d point,
+                  V3d direction) {
+  const Portals& portals = surfaces.portals();
+  if (!surfaces.knows(source)) return false;
+  if (portals.empty()) return true;
+  const auto& lights = prepared.lights().all();
+  for (; lights[source].isVirtual(); source = lights[source].relayed) {
+    const ShapeRef mirror = prepared.scene().surfaces[lights[source].surface].shape;
+    const V3d& normal = *planeNormal(mirror);
+    const double cosine = normal.dot(direction),
+                 distance = (planeOffset(mirror) - normal.dot(point)) / cosine;
+    if (portals.isLeft(point, direction, distance)) return false;
+    point += distance * direction;
+    direction -= 2 * cosine * normal;
+  }
+  return portals.isLeft(point, direction, kFarAway);
 }
 
 void PlainSurfaces::findSurfaces() {
@@ -170,7 +190,7 @@ const char* PlainSurfaces::obstacle() const {
   if (!changeNothing(prepared_.options())) return "options";
   if (!portals_.empty()) {
     if (hasMist(scene_)) return "mist";
-    return coverage_.allLit && !scene_.importance ? nullptr : "sources that are not known";
+    return coverage_.allSources && !scene_.importance ? nullptr : "sources that are not known";
   }
   if (!prepared_.lights().distant().empty()) return "distant sources";
   if (!coverage_.anySource) return "no known sources";

@@ -4,7 +4,8 @@
 // - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
 //   patterns, if these depend on place alone;
 // - local sources at which shadow rays can be aimed, and their images in mirrors;
-// - in scenes without these, distant sources, and all light that enters through portals (portals.h).
+// - in scenes without these, distant sources, their images in mirrors that they light only through portals
+//   (portals.h), and all light that enters through portals.
 // Paths from both ends estimate the light of known sources that has met only known surfaces. Paths from the
 // eye (path_tracer.h) estimate all other light. All code uses this definition of "known", so that each light
 // path is estimated by exactly one method, or by several with weights that add up to 1.
@@ -58,11 +59,8 @@ class PlainSurfaces {
   struct Coverage {
     bool anySource = false;  // at least one source is known
     bool allSources = true;  // all sources are known
-    // With portals: all sources but images of distant ones in mirrors that seem to be in the shade are known.
-    // Light of these images is left to paths from the eye.
-    bool allLit = true;
-    bool all = true;        // all light: all surfaces and sources are known
-    bool allDirect = true;  // all direct light of known surfaces
+    bool all = true;         // all light: all surfaces and sources are known
+    bool allDirect = true;   // all direct light of known surfaces
     // Some surface emits light that shadow rays miss, wholly or in part; only a ray that hits the surface
     // finds it.
     bool glows = false;
@@ -110,7 +108,7 @@ class PlainSurfaces {
   Sight straight(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   void findSources();
   bool isKnown(LightId source) const;
-  bool isLit(const LightSource& source) const;
+  bool isLitOutdoors(const LightSource& image) const;
   void findSurfaces();
   Color patternFrom(ModifierId first, const FunctionPoint& here, FunctionScratch& scratch) const;
   Color patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit, FunctionScratch& scratch) const;
@@ -130,13 +128,10 @@ class PlainSurfaces {
 double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
                 std::vector<double>& weights);
 
-// Whether paths from both ends estimate the light of a source that arrives at a point straight from a
-// direction (unit). For distant sources they do so only through portals.
-inline bool bringLightOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,
-                         const V3d& direction) {
-  const Portals& portals = surfaces.portals();
-  return surfaces.knows(source) && (portals.empty() || portals.isLeft(point, direction, kFarAway));
-}
+// Whether paths from both ends estimate the light of a source, or of an image of it, that arrives at a point
+// from a direction (unit). Light of distant sources has to enter through a portal, and pass no other later.
+bool bringLightOf(LightId source, const PreparedScene& prepared, const PlainSurfaces& surfaces, V3d point,
+                  V3d direction);
 
 // Describes a hit on a plain material, for scatter().
 Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,

@@ -77,7 +77,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
 
 // The transmittance between the place and a source sample; black if occluded.
 Coefficient VertexLight::passing(const PlainPlace& at, const SourceSample& sample) const {
-  if (!bringLightOf(sample.source, surfaces_, at.point, sample.direction)) return {};
+  if (!bringLightOf(sample.source, prepared_, surfaces_, at.point, sample.direction)) return {};
   const LightSource& light = prepared_.lights().all()[sample.source];
   const SurfaceId source = light.isDistant() ? SurfaceId() : light.surface;
   switch (
@@ -101,7 +101,8 @@ Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
   return surfaces_.radianceOf(sample.source, point, sample.normal, sample.direction, scratch) * passed;
 }
 
-// arriving() for a virtual source. Black unless the path hits each mirror.
+// arriving() for a virtual source. Black unless the path hits each mirror, and leaves through a portal to a
+// distant source.
 Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                                         FunctionScratch& scratch) const {
   const auto& lights = prepared_.lights().all();
@@ -109,6 +110,11 @@ Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample
   SurfaceId start = at.surface;
   Coefficient passed(1);
   for (LightId source = sample.source;; source = lights[source].relayed) {
+    if (lights[source].isDistant() && !lights[source].isVirtual())
+      return bringLightOf(source, prepared_, surfaces_, origin, direction)
+                 ? *prepared_.lights().constantRadiance(source) * passed *
+                       surfaces_.passingToSource(origin, direction, kFarAway, start)
+                 : Radiance();
     const Sight sight = surfaces_.look(origin, direction, kFarAway, start);
     if (sight.hit.surface != lights[source].surface || sight.hit.cosine <= 0) return {};
     origin += sight.distance * direction;

@@ -73,8 +73,9 @@ class DirectLight : PathPart {
   void addOneOf(Receiver at, size_t first, uint32_t count, Radiance& value);
   bool arrives(Receiver at, Contribution& to, Radiance& value);
   bool isWhole(const SourceSample& sample) const;
-  static bool isLeftOut(Receiver at, const SourceSample& sample) {
-    return at.leftToBothEnds && bringLightOf(sample.source, *at.leftToBothEnds, at.point, sample.direction);
+  bool isLeftOut(Receiver at, const SourceSample& sample) const {
+    return at.leftToBothEnds &&
+           bringLightOf(sample.source, t_, *at.leftToBothEnds, at.point, sample.direction);
   }
   uint32_t& blockerOf(SurfaceId surface, LightId source) {
     const uint64_t both =

@@ -105,7 +105,7 @@ const std::vector<Light> kLights{
      "void glow above 0 0 4 3 4 6 0\nabove source sky 0 0 4 0 0 1 180\n"
      "void glow below 0 0 4 1 .8 .6 0\nbelow source earth 0 0 4 0 0 -1 180\n"},
     {"Sun",
-     "void light solar 0 0 3 4e5 4e5 4e5\nsolar source sun 0 0 4 .2 -.7 .6 .5\n"
+     "void light solar 0 0 3 4e5 4e5 4e5\nsolar source sun 0 0 4 -.5 -.7 .6 .5\n"
      "void glow above 0 0 4 3 4 6 0\nabove source sky 0 0 4 0 0 1 180\n"},
     // Outdoors, below the window sill.
     {"Lamp",
