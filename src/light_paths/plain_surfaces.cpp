@@ -89,8 +89,23 @@ PlainSurfaces::PlainSurfaces(const PreparedScene& prepared, Portals portals)
     hasPanes_ = hasPanes_ || f.pane;
     finishes_.push_back(f);
   }
+  placePortals();
   findSources();
   findSurfaces();
+}
+
+// Panes that are not known, such as frosted ones, are left outdoors.
+void PlainSurfaces::placePortals() {
+  Random random(0);
+  for (size_t i = 0; i < portals_.all().size(); ++i)
+    for (int k = 0; k < tuning::Caps::kProbes; ++k) {
+      const Opening& portal = portals_.all()[i];
+      const double u = random.uniform(), v = random.uniform();
+      const Hit hit = tracer_.nearest(portal.at(u, v), portal.normal, 2 * portals_.lift(), kNone);
+      if (hit.surface == kNone || knows(hit.surface)) continue;
+      portals_.moveIndoors(i);
+      break;
+    }
 }
 
 void PlainSurfaces::findSources() {

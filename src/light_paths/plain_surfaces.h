@@ -106,6 +106,7 @@ class PlainSurfaces {
 
  private:
   Sight straight(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
+  void placePortals();
   void findSources();
   bool isKnown(LightId source) const;
   bool isLitOutdoors(const LightSource& image) const;

@@ -2,7 +2,8 @@
 // Openings (openings.h) as the light sources of paths from both ends. A path from the eye that leaves through
 // a portal, from its dark side to its bright side, ends there: all light from beyond is treated as light of
 // the portal. Thus no light is counted twice, whatever is outdoors. A portal lies a little outside of its
-// opening, so that a pane in the opening belongs to the room despite rounding.
+// opening, so that a pane in the opening belongs to the room despite rounding, or a little inside, so that
+// the pane is outdoors.
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ class Portals {
 
   bool empty() const { return portals_.empty(); }
   std::span<const Opening> all() const { return portals_; }
-  // The distance of the portals from their openings, on the bright side (world units).
+  // The distance of the portals from their openings (world units); on the bright side, unless moved.
   double lift() const { return lift_; }
+  void moveIndoors(size_t portal) { portals_[portal].corner += 2 * lift_ * portals_[portal].normal; }
 
   // The distance at which a straight line first leaves through a portal; kFarAway if it does not within
   // `farthest`.

@@ -85,6 +85,10 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"Pane", kRoom + kPane + kSky}, Way{"Hole", kRoom + kSky},
         Way{"OneBounce", kRoom + kPane + kSky, 1}, Way{"FourBounces", kRoom + kPane + kSky, 4},
         Way{"Sun", kRoom + kPane + kSky + kSun}, Way{"SunOnGround", kRoom + kPane + kSky + kSun + kGround, 3},
+        // The pane, which is not known, is outdoors.
+        Way{"FrostedPane", kRoom + kSky + kSun +
+                               "void trans frost 0 0 7 .9 .9 .9 .02 .1 .8 .3\n"
+                               "frost polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n"},
         // The sun shines through an opening behind an opening.
         Way{"DoublePane", kRoom + kPane + kInnerPane + kSky + kSun},
         Way{"GlassCanopy", kRoom + kCanopy + kSky + kSun, 1, V3d(2.4, 1.7, 1.1)},
