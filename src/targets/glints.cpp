@@ -15,15 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-// Reflectance of the outer boundary of a ball at normal incidence, as brightness. Balls of trans are ignored.
-double reflectanceOf(const Material& material) {
-  const auto mirrored = mirrorReflection(material);
-  if (!mirrored) return 0;
-  if (mirrored->boundaries > 0) return kGlassReflectance;
-  if (isTransparent(material) || mirrored->roughness > tuning::SpecialObjects::kSharpRoughness) return 0;
-  return mirrored->brightness;
-}
-
 static_assert(kShapes == 8, "Does a new shape mirror sources, or has it corners?");
 static_assert(kLightForms == 8, "Is its image that of a parallelogram, a disk or a polygon?");
 // A part of a source, small enough that its image in a ball is hardly curved. The members are positions, or
@@ -105,6 +96,14 @@ double solidAngleFrom(const LightSource& source, const Sphere& ball, double dist
 
 }  // namespace
 
+double mirroredShare(const Material& material) {
+  const auto mirrored = mirrorReflection(material);
+  if (!mirrored) return 0;
+  if (mirrored->boundaries > 0) return kGlassReflectance;
+  if (isTransparent(material) || mirrored->roughness > tuning::SpecialObjects::kSharpRoughness) return 0;
+  return mirrored->brightness;
+}
+
 double leastGlint(double usual) { return tuning::Targets::kLeastGlint * 4 * pi * usual * usual; }
 
 Glints::Glints(const TargetScene& from)
@@ -130,7 +129,7 @@ std::vector<Glints::Ball> Glints::ballsAmong(const Scene& scene, std::span<const
     const Surface& surface = scene.surfaces[object.surface];
     if (!sphere || object.several || !surface.shape.as<Sphere>()) continue;
     const Material* material = scene.materialOf(surface);
-    const double reflectance = material ? reflectanceOf(*material) : 0;
+    const double reflectance = material ? mirroredShare(*material) : 0;
     if (reflectance > 0) balls.push_back({*sphere, reflectance});
   }
   return balls;

@@ -13,6 +13,9 @@ namespace rsphere {
 
 // Images whose solid angle (sr) times squared radiance is below this are no targets. usual: see TargetFinder.
 double leastGlint(double usual);
+// The reflectance (brightness) of the outside of a ball or cylinder that mirrors, at normal incidence; 0 for
+// materials that do not, and for trans.
+double mirroredShare(const Material& material);
 
 class Glints {
  public:

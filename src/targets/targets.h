@@ -6,6 +6,7 @@
 #include "points/direction_sample.h"
 #include "silhouettes/silhouette_index.h"
 #include "targets/contrasts.h"
+#include "targets/curved_images.h"
 #include "targets/glints.h"
 #include "targets/mirrored_openings.h"
 #include "targets/opening_targets.h"
@@ -65,7 +66,8 @@ class TargetChoice {
   double densityFactor_;
   Contrasts contrasts_;
   // All ways to find targets.
-  TargetFinders<SpecialTargets, Glints, MirroredOpenings, OpeningTargets, SunlitTargets> finders_;
+  TargetFinders<SpecialTargets, Glints, MirroredOpenings, CurvedImages, OpeningTargets, SunlitTargets>
+      finders_;
 };
 
 }  // namespace rsphere
