@@ -67,10 +67,12 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   };
   end.ended = [&] {
     for (const std::string& text : summary.warnings(options, transport.prepared())) warn(text);
+    if (const std::string text = summary.report(options); !text.empty() && isatty(messages.descriptor()) != 0)
+      messages.report(text);
   };
   const auto checkStop = [&] { signals.check(); };
   runRecords(reader, writer, options, messages, &signals,
-             !options.sphereMode ? answerRays(transport, options, answers, warn, summary)
+             !options.sphereMode ? answerRays(transport, options, answers, warn, summary, checkStop)
              : options.sphere.glare.wanted
                  ? answerGlare(transport, options, answers, warn, summary, checkStop)
                  : answerPoints(transport, options, answers, warn, summary, checkStop,

@@ -48,6 +48,11 @@ struct AnswerOptions {
   double progressSeconds = 0;  // -t; 0: no progress reports
   bool progressGiven = false;  // -t was given
 
+  // Whether rays are estimated by several independent sets, for their standard errors or an accuracy.
+  bool estimatesRays() const {
+    return !sphereMode && (sphere.accuracy > 0 || outputs.find('e') != std::string::npos);
+  }
+
   // Number of values in an input record: x y z of a point, origin and direction of a ray, or an eye and its
   // gaze.
   int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }

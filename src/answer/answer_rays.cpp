@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "estimate/ray_estimator.h"
 #include "process/threads.h"
 #include "rays/ray_report.h"
 #include "scene/modifier_names.h"
@@ -19,16 +20,41 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
   return tracers;
 }
 
+namespace {
+
+// Answers rays by independent sets of rays, with their standard errors.
+class EstimatedRays {
+ public:
+  EstimatedRays(const Transport& transport, const AnswerOptions& options,
+                const std::function<void()>& checkStop)
+      : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}),
+        checkStop_(checkStop) {
+    for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers_.push_back(estimator_.tracers());
+  }
+  RayEstimator::Estimate estimate(unsigned worker, const InputRay& in, double farthest, uint64_t seed) {
+    return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed, {}, checkStop_);
+  }
+
+ private:
+  RayEstimator estimator_;
+  std::function<void()> checkStop_;
+  std::vector<std::vector<PathTracer>> tracers_;  // by thread
+};
+
+}  // namespace
+
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn, RunSummary& summary) {
+                        const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop) {
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
+  const auto estimated =
+      options.estimatesRays() ? std::make_shared<EstimatedRays>(transport, options, checkStop) : nullptr;
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const ShownShadows shadows = options.treeShadows ? ShownShadows::all : ShownShadows::thatPassSurfaces;
   const bool valueAlone = options.outputs == "v";
   if (value && lacksSources(transport.prepared())) warn("no light sources found");
   warnOfMissingModifiers(transport.prepared().scene(), options.treeExcluded, "-te", warn);
   warnOfMissingModifiers(transport.prepared().scene(), options.treeIncluded, "-ti", warn);
-  const AnswerRecord answerRay = [&, tracers, trees, value, valueAlone, shadows](
+  const AnswerRecord answerRay = [&, tracers, estimated, trees, value, valueAlone, shadows](
                                      const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in =
         inputRay(record.numbers.data(), options.irradiance, transport.prepared().scene().samePlace);
@@ -41,6 +67,14 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
     const PathRequest request{trees ? &observer : nullptr, shadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
+    if (estimated) {
+      const RayEstimator::Estimate estimate = estimated->estimate(worker, in, farthest, seed);
+      RayAnswer answer = answerOf(transport.prepared().scene(), estimate.ray);
+      answer.standardError = estimate.standardError;
+      answer.brightnessError = estimate.brightnessError;
+      summary.add(record.index, estimate);
+      return writer.write(bytes, answer, record.index);
+    }
     const TracedRay ray = value ? tracer.trace(in.origin, in.direction, farthest, seed, request)
                                 : tracer.cast(in.origin, in.direction, farthest);
     if (!valueAlone) return writer.write(bytes, answerOf(transport.prepared().scene(), ray), record.index);

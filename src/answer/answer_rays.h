@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,10 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
 
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values
 // are requested and the scene has no light source; also of names of -te and -ti that are the modifier of no
-// surface. The summary gets the sensors of -I. All arguments must exist as long as the result.
+// surface. The summary gets the sensors of -I. checkStop: called while a ray with an accuracy (-Sa) is
+// computed. All arguments must exist as long as the result.
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn, RunSummary& summary);
+                        const rad::Warn& warn, RunSummary& summary,
+                        const std::function<void()>& checkStop = {});
 
 }  // namespace rsphere

@@ -37,6 +37,7 @@ int componentCount(const AnswerOptions& options) {
   }
   for (const char letter : options.outputs) switch (letter) {
       case 'v':
+      case 'e':
       case 'V':
       case 'r':
       case 'x': count += color; break;
@@ -60,6 +61,12 @@ void AnswerWriter::eachPart(const Color& color, const Write& write) const {
   for (size_t i = 0; i < options_.contributors.size(); ++i) write(color.part(i));
 }
 
+void AnswerWriter::writeError(RecordText& text, const RayAnswer& answer) const {
+  if (options_.contributors.empty())
+    return colors_.writeError(text, answer.standardError, answer.brightnessError);
+  eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
+}
+
 void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& answer) const {
   const auto radiance = [&](const Radiance& all) {
     eachPart(all.color, [&](const Color& part) { colors_.write(text, Radiance(part)); });
@@ -68,6 +75,7 @@ void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& a
     case 'o': return text.vector(answer.origin);
     case 'd': return text.vector(answer.direction);
     case 'v': return radiance(answer.value);
+    case 'e': return writeError(text, answer);
     case 'V': return radiance(answer.value * answer.contribution);
     case 'r': return radiance(answer.mirroredContribution);
     case 'x': return radiance(answer.unmirroredContribution);

@@ -47,6 +47,7 @@ class AnswerWriter {
   void eachPart(const Color& color, const Write& write) const;
   // Writes the quantity of an -o letter for a ray.
   void writeLetter(RecordText& text, char letter, const RayAnswer& answer) const;
+  void writeError(RecordText& text, const RayAnswer& answer) const;
   void writeErrorOfPart(RecordText& text, const Color& part) const;
   void writeColors(RecordText& text, const PointQuantity& quantity, const PointAnswer& answer) const;
   void writeLightVector(RecordText& text, const PointAnswer& answer) const;

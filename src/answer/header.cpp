@@ -119,6 +119,7 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   RecordLayout layout{counts ? componentCount(options) : 0};
   if (!options.contributors.empty())
     layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (options.sphere.accuracy > 0) layout.lines += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
   if (options.sphereMode && options.sphere.bins) {
     layout.lines += solidAngleLines(*options.sphere.bins);
   } else if (options.sphereMode && options.sphere.zones > 0) {

@@ -6,13 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/spectral_sampling.h"
 
 namespace rsphere {
 namespace {
-
-// The relative error of a mean that is 0 or negative.
-constexpr double kAnyError = 1e30;
 
 // A point is far away from the scene at more than this many diagonals of the box around its surfaces. Points
 // in millimetres are some 500 diagonals away from a room in metres, points in centimetres 50. Photometry of a
@@ -28,6 +24,11 @@ bool isFarAway(const V3d& point, const Box3d& scene) {
     distance2 += outside * outside;
   }
   return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
+}
+
+std::string_view placesOf(const AnswerOptions& options) {
+  if (options.sphereMode) return options.sphere.glare.wanted ? "eyes" : "points";
+  return options.irradiance == IrradianceAt::point ? "sensors" : "rays";
 }
 
 // Whether all surfaces are light sources or goals. Photometry of a bare lamp has points far away from it.
@@ -55,12 +56,9 @@ void RunSummary::addPlace(uint64_t record, const V3d& point, bool unlit, const P
 }
 
 void RunSummary::add(uint64_t record, const PointAnswer& answer, const PreparedScene& prepared) {
-  const SpectralSampling* const sampling = prepared.options().sampling;
   const std::lock_guard lock(mutex_);
   addPlace(record, answer.point, answer.isDark, prepared);
-  const double mean = photopicOf(answer.mean.color, sampling);
-  if (!answer.reached && !answer.isDark)
-    missed_.add(record, mean > 0 ? answer.brightnessError / mean : kAnyError);
+  if (!answer.isDark) addError(record, answer.relativeError, answer.reached);
 }
 
 void RunSummary::add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared) {
@@ -69,17 +67,43 @@ void RunSummary::add(uint64_t record, const GlareAnswer& answer, const PreparedS
   if (std::isinf(answer.indices.ugr)) infinite_.add(record);
 }
 
+void RunSummary::add(uint64_t record, const RayEstimator::Estimate& estimate) {
+  const std::lock_guard lock(mutex_);
+  addError(record, estimate.relativeError, estimate.reached);
+}
+
+void RunSummary::addError(uint64_t record, double relativeError, bool reached) {
+  estimated_.add(record, relativeError);
+  if (!reached) missed_.add(record, relativeError);
+}
+
 void RunSummary::addSensor(uint64_t record, const V3d& point, const PreparedScene& prepared) {
   const std::lock_guard lock(mutex_);
   addPlace(record, point, false, prepared);
 }
 
+std::string RunSummary::accuracyText(const AnswerOptions& options) const {
+  const double accuracy = options.sphere.accuracy, largest = estimated_.most;
+  std::string text = fmt::format("-Sa: {} of {} {} are within {:.3g}%", estimated_.records - missed_.records,
+                                 estimated_.records, placesOf(options), 100 * accuracy);
+  if (estimated_.records == 0) return text;
+  text += fmt::format("; the largest error is {:.3g}% (record {})", 100 * largest, estimated_.worst + 1);
+  if (missed_.records == 0) return text;
+  const double times = std::pow(largest / accuracy, 2);
+  return text + fmt::format(": {:.{}f} times the {} would do", std::max(times, 1.1), times < 10 ? 1 : 0,
+                            options.sphereMode ? "directions (-Sx)" : "rays");
+}
+
+std::string RunSummary::report(const AnswerOptions& options) const {
+  const std::lock_guard lock(mutex_);
+  return options.sphere.accuracy > 0 && missed_.records == 0 ? accuracyText(options) : "";
+}
+
 std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
                                               const PreparedScene& prepared) const {
   const std::lock_guard lock(mutex_);
-  const SphereOptions& sphere = options.sphere;
   const bool importance = prepared.scene().importance;
-  const std::string_view places = !options.sphereMode ? "sensors" : sphere.glare.wanted ? "eyes" : "points";
+  const std::string_view places = placesOf(options);
   std::vector<std::string> texts;
   if (unlit_.records > 0 && !isDark(prepared))
     texts.push_back(fmt::format(
@@ -100,12 +124,7 @@ std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
         "UGR is infinite at {} of {} eyes; the first is record {}: all light there comes from glare sources, "
         "so that the background is black",
         infinite_.records, records_, infinite_.worst + 1));
-  if (missed_.records > 0)
-    texts.push_back(fmt::format(
-        "-Sa {:g} was not reached at {} of {} points with at most {} directions; the worst is record {}: "
-        "{}",
-        sphere.accuracy, missed_.records, records_, sphere.mostOfAllSets(), missed_.worst + 1,
-        missed_.most < kAnyError ? fmt::format("{:.3g}%", 100 * missed_.most) : "no light"));
+  if (missed_.records > 0) texts.push_back(accuracyText(options));
   return texts;
 }
 

@@ -112,6 +112,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
   if (records == Records::contributions) {
     limitToContributions(parsed.ray);
+    refuse(parsed.sphere.accuracy > 0, "-Sa", "the errors of contributions fall with the number of samples");
     refuse(parsed.color.space != ColorSpace::rgb && parsed.color.space != ColorSpace::spectrum, "-p",
            "contributions are red, green and blue, or bands (-cs)");
   }
@@ -134,6 +135,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
   add(result.key, result.options.program);
   for (const std::string& word : result.options.words) add(result.key, word);
   add(result.sceneKey, records == Records::contributions ? "contributions" : result.options.program);
+  // Standard errors (-oe) need several solutions.
+  if (result.options.estimatesRays()) add(result.sceneKey, "standard errors");
   for (const UsedOption& option : used)
     if (!isOfOutput(*option.entry))
       for (const std::string& word : option.words) add(result.sceneKey, word);

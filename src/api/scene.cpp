@@ -142,7 +142,7 @@ struct Answerer {
       answer = withSources(checkStop);
     else
       answer = options.sphereMode ? answerPoints(scene->transport, options, writer, warn, *summary, checkStop)
-                                  : answerRays(scene->transport, options, writer, warn, *summary);
+                                  : answerRays(scene->transport, options, writer, warn, *summary, checkStop);
   }
   // For contributions to rays.
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
@@ -326,6 +326,7 @@ struct Column {
 
 std::vector<Column> columnsOf(RayAnswers& a) {
   return {{'v', &a.value},
+          {'e', &a.standardError},
           {'o', &a.origin},
           {'d', &a.direction},
           {'p', &a.point},

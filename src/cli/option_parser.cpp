@@ -11,6 +11,7 @@
 #include "cli/option_words.h"
 #include "cli/word_file.h"
 #include "contrib/direction_functions.h"
+#include "estimate/ray_estimator.h"
 #include "points/quantities.h"
 #include "rad_parser/error.h"
 #include "rad_parser/nearest_name.h"
@@ -139,13 +140,6 @@ void checkRange(const OptionEntry& entry, double x) {
                                              lowest == 0 && highest == 1 && x > 1 ? percent(x) : ""));
 }
 
-double realWord(const OptionEntry& entry, const std::string& word) {
-  const auto x = rad::parseReal(word);
-  if (!x) notReal(entry.name, word, rangeText(entry.range));
-  checkRange(entry, *x);
-  return *x;
-}
-
 int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   const auto n = rad::parseInteger(word);
   if (!n) notInteger(entry.name, word, rangeText(entry.range));
@@ -263,7 +257,7 @@ void checkGlareLetters(const Options& options) {
 void checkLetters(const Options& options) {
   if (options.sphereMode && options.sphere.glare.wanted) return checkGlareLetters(options);
   const bool points = options.sphereMode && !options.sphere.everyDirection;
-  std::string known = !options.sphereMode ? "odvVwWlLcpnNsmMrRxX~" : points ? "" : "iodwvlLcpnNsmM~";
+  std::string known = !options.sphereMode ? "odveVwWlLcpnNsmMrRxX~" : points ? "" : "iodwvlLcpnNsmM~";
   std::string colors = !options.sphereMode ? "vrx" : points ? "" : "v";
   if (points)
     for (const PointQuantity& quantity : pointQuantities()) {
@@ -302,8 +296,8 @@ void checkColorOutput(Options& options) {
   const auto error = std::find_if(options.outputs.begin(), options.outputs.end(), [](char letter) {
     return haveErrors({&letter, 1});
   });
-  if (options.sphereMode && !options.sphere.glare.wanted && !options.sphere.everyDirection &&
-      !haveStandardErrors(color) && error != options.outputs.end())
+  if (!options.sphere.glare.wanted && !options.sphere.everyDirection && !haveStandardErrors(color) &&
+      error != options.outputs.end())
     throw rad::Error(fmt::format(
         "-o{} needs {}", *error,
         color.bands > 3 ? "-co or -pY with -cs above 3: standard errors exist for bands, or for luminance"
@@ -319,7 +313,7 @@ void checkIrradiance(Options& options) {
     return options.outputs.find_first_of(letters) != std::string::npos;
   };
   if (options.irradiance != IrradianceAt::none) {
-    if (options.treeOutputs.empty() && !uses("vVrRxXlnW"))
+    if (options.treeOutputs.empty() && !uses("veVrRxXlnW"))
       throw rad::Error("-I+ and -i+ options require some value output");
   }
   for (const char letter : options.outputs) {
@@ -386,7 +380,24 @@ void checkGlare(const Options& options) {
   refuse(!options.picture.empty(), "-Si", "pictures show the light at points, not the view of an eye");
 }
 
+void checkErrorsOfRays(const Options& options) {
+  if (options.sphere.accuracy >= 1)
+    commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
+  if ((options.estimatesRays() && !options.treeOutputs.empty()) ||
+      options.treeOutputs.find('e') != std::string::npos)
+    commandLineError("-ot", "the rays of a tree have no standard errors: not with -Sa or -oe");
+}
+
+// The rays of patches where rays have standard errors.
+void setSolutions(RayOptions& ray, double accuracy) {
+  if (!(ray.ambientAccuracy > 0)) return;
+  ray.solutions = static_cast<int>(RayEstimator::kSolutions);
+  if (accuracy > 0) ray.raysForPatches = RayEstimator::raysForPatches(ray, accuracy);
+}
+
 void checkTogether(Options& options, bool mostGiven) {
+  checkErrorsOfRays(options);
+  if (options.estimatesRays()) setSolutions(options.ray, options.sphere.accuracy);
   checkParts(options);
   checkSensors(options);
   checkGlare(options);
@@ -396,7 +407,6 @@ void checkTogether(Options& options, bool mostGiven) {
   if (options.listSpecial && !options.picture.empty())
     commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");
   SphereOptions& sphere = options.sphere;
-  if (sphere.accuracy >= 1) commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
   options.ray.leastForPatches = sphere.raysForPatches();
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);
@@ -411,6 +421,13 @@ void checkTogether(Options& options, bool mostGiven) {
 
 void commandLineError(std::string_view at, std::string_view why) {
   throw rad::Error(fmt::format("command line error at '{}': {}; see -help", rad::printable(at), why));
+}
+
+double realWord(const OptionEntry& entry, const std::string& word) {
+  const auto x = rad::parseReal(word);
+  if (!x) notReal(entry.name, word, rangeText(entry.range));
+  checkRange(entry, *x);
+  return *x;
 }
 
 void notReal(std::string_view option, std::string_view word, std::string_view range) {
@@ -444,6 +461,12 @@ struct Given {
   Request request = Request::answers;
   bool sphereMode = true;
 
+  // Whether standard errors or an accuracy are requested.
+  bool asksForErrors() const {
+    return std::any_of(uses.begin(), uses.end(), [](const Use& use) {
+      return use.entry->name == "-Sa" || (use.entry->name == "-o" && use.rest.find('e') != std::string::npos);
+    });
+  }
   bool has(std::string_view name) const {
     return std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.entry->name == name; });
   }
@@ -545,6 +568,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   }
   Given given = takeOptions(words, companion, companion.sphereMode && program != "rtrace");
   options = modeDefaults(given.sphereMode);
+  if (!given.sphereMode && given.asksForErrors()) stateErrors(options.ray, given.has("-Sa"));
   if (companion.defaults) companion.defaults(options);
   options.program = program;
   options.request = given.request;

@@ -196,6 +196,27 @@ void setWavelengths(Options& options, const OptionEntry& entry, std::span<const 
   options.color.longest = std::max(*a, *b);
 }
 
+// -Sa has an accuracy and, after a comma, the least value to which it refers.
+void setAccuracy(Options& options, const OptionEntry& entry, std::span<const std::string> words,
+                 std::string_view) {
+  const std::string& word = words[0];
+  const size_t comma = word.find(',');
+  options.sphere.accuracy = realWord(entry, word.substr(0, comma));
+  options.sphere.accuracyFloor = -1;
+  if (comma == word.npos) return;
+  if (options.sphere.accuracy == 0)
+    commandLineError(entry.name,
+                     fmt::format("\"{}\" has no accuracy: use a decimal point", rad::printable(word)));
+  const auto floor = rad::parseReal(std::string_view(word).substr(comma + 1));
+  if (!floor || *floor < 0) notReal(entry.name, word.substr(comma + 1), " of at least 0");
+  options.sphere.accuracyFloor = *floor;
+}
+
+std::string accuracyLine(const Options& o) {
+  if (o.sphere.accuracyFloor < 0) return fmt::format("-Sa {:<9g}\t\t\t", o.sphere.accuracy);
+  return fmt::format("-Sa {:g},{:g}\t\t\t", o.sphere.accuracy, o.sphere.accuracyFloor);
+}
+
 std::string formatLine(const Options& o) {
   return fmt::format("-f{}{}\t\t\t\t", static_cast<char>(o.in), static_cast<char>(o.out));
 }
@@ -409,9 +430,9 @@ constexpr OptionEntry kOptions[] = {
     {{"-Sk", "F", "factor on extra directions; 0: none", Group::sphere, sphere<&SphereOptions::densityFactor>,
       kNotNegative},
      pointsOnly()},
-    {{"-Sa", "acc", "stop at this relative standard error; 0: one set", Group::sphere,
-      sphere<&SphereOptions::accuracy>, kFraction},
-     pointsOnly("for rays, -ad, -as and -aa determine the accuracy")},
+    {{"-Sa", "acc", "stop at this relative standard error; 0: off", Group::sphere, Custom{setAccuracy},
+      kFraction},
+     {.line = accuracyLine}},
     {{"-Sw", "letter", "weights: h equal, v Voronoi cells, c cells within silhouettes", Group::sphere,
       Custom{setWeights}},
      {.mode = Mode::points, .line = weightsLine}},
@@ -473,6 +494,19 @@ int arity(const OptionEntry& entry) {
   return 1 + static_cast<int>(std::count(entry.arguments.begin(), entry.arguments.end(), ' '));
 }
 
+// The direct light that thresholds leave out, and the light of highlights that are not sampled, would be
+// missing in the stated errors.
+void stateErrors(RayOptions& ray, bool reachAccuracy) {
+  const RayOptions ofPoints = modeDefaults(true).ray;
+  ray.directThreshold = ofPoints.directThreshold;
+  ray.directJitter = ofPoints.directJitter;
+  ray.specularThreshold = ofPoints.specularThreshold;
+  ray.sourceSubstructuring = .05;
+  if (!reachAccuracy) return;
+  ray.ambientBounces = ofPoints.ambientBounces;
+  ray.reflectionLimit = ofPoints.reflectionLimit;
+}
+
 Options modeDefaults(bool sphereMode) {
   Options options;
   options.sphereMode = sphereMode;
@@ -498,6 +532,9 @@ Options modeDefaults(bool sphereMode) {
   // - In a white room (reflectance .9, -ab 9), the rms error is .87% for .1, and .74% for .01 and below.
   // The default is small for the sake of scenes in which paths of little weight find something very bright.
   options.ray.weightLimit = 1e-5;
+  // As many bounces as it takes: paths end by Russian roulette. Any lower limit makes the mean too small.
+  options.ray.ambientBounces = RayOptions::kAllBounces;
+  options.ray.reflectionLimit = -RayOptions::kAllBounces;
   return options;
 }
 

@@ -125,6 +125,10 @@ int arity(const OptionEntry& entry);
 // thousands of directions.
 Options modeDefaults(bool sphereMode);
 
+// Sets the defaults of rays whose standard errors are computed: nothing is left out but bounces beyond -ab.
+// reachAccuracy: these are not left out, either (-Sa).
+void stateErrors(RayOptions& ray, bool reachAccuracy);
+
 // The defaults for the rays of pictures (-Si).
 RayOptions pictureDefaults();
 

@@ -24,6 +24,7 @@ constexpr std::array kLetterNames = {
     LetterName{'x', "unreflect_contrib"},
     LetterName{'X', "unreflect_length"},
     LetterName{'v', "value"},
+    LetterName{'e', "standard_error"},
     LetterName{'V', "contribution"},
     LetterName{'l', "length"},
     LetterName{'L', "first_length"},
@@ -171,7 +172,7 @@ constexpr std::string_view kRayFeatures[] = {"ShadowCache",
                                              "AdaptiveShadowTesting",
                                              "InputFormats=a,f,d",
                                              "OutputFormats=a,f,d,c",
-                                             "Outputs=o,d,v,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
+                                             "Outputs=o,d,v,e,V,w,W,l,L,c,p,n,N,s,m,M,r,x,R,X,~",
                                              "OutputCS=RGB,XYZ,Y,S,M,prims,spec"};
 
 bool hasSubfeatures(std::string_view feature, std::string_view wanted) {

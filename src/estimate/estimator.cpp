@@ -196,7 +196,8 @@ SphereEstimator::SphereEstimator(const Transport& transport, const SphereOptions
   if (!usual_.glances && sendsToSpecialObjects(options))
     if (auto surfaces = daylitSurfaces(usual_.tracing))
       daylit_ = std::make_unique<Daylit>(std::move(*surfaces));
-  if (options.accuracy > 0)
+  floor_ = 4 * std::numbers::pi * std::max(options.accuracyFloor, 0.);
+  if (options.accuracy > 0 && options.accuracyFloor < 0)
     dark_ = 4 * std::numbers::pi * tuning::Dark::kShare * typicalRadiance(usual_.tracing, sources_);
 }
 
@@ -265,7 +266,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
   std::array<Half, 2> halves{Half(base_.zones.get()), Half(base_.zones.get())};
   std::vector<KeptSet> kept;
-  TwoHalves decision(options_.accuracy, dark_);
+  TwoHalves decision(options_.accuracy, dark_, floor_);
   const SamplingStrategy& strategy = strategyFor(point);
   uint64_t sets = 0;
   size_t directions = 0, largest = 0, lit = 0;
@@ -299,6 +300,9 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   if (base_.zones && base_.neighbours)
     answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling, sharedError());
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
+  const double value =
+      std::max(photopicOf(answer.mean.color, base_.sampling), floor_ / (4 * std::numbers::pi));
+  answer.relativeError = value > 0 ? answer.brightnessError / value : 0;
   answer.reached = options_.accuracy <= 0 || decision.isReached();
   return answer;
 }

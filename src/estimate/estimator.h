@@ -103,6 +103,7 @@ class SphereEstimator {
     std::optional<Method> method;
   };
   std::unique_ptr<Daylit> daylit_;  // null without openings
+  double floor_ = 0;                // -Sa: integral of radiance (W/m2) to which it refers at least
   double dark_ = 0;                 // -Sa: integral of radiance (W/m2) below which a point is dark
 };
 

@@ -25,6 +25,32 @@ struct Stopping {
   static constexpr size_t kMostRatio = 2;
 };
 
+// The sets of a ray (ray_estimator.cpp).
+struct RaySets {
+  // Rays of a set's gather in the first round of -Sa.
+  static constexpr int kFirst = 32;
+  // Cap on the rays of one gather. Further rays are sent in further gathers, which draw the shadow rays of
+  // the first surface and the samples of its lobes anew.
+  static constexpr int kMostAtOnce = 512;
+  // Gathers that each set gets in a round, at least: 16 in all. With one, six degrees of freedom state the
+  // error of a first round, and answers stop where it is stated a quarter too small.
+  static constexpr int kLeastGathers = 2;
+  // Each round multiplies the number of rays by at most kGrowth, and at least kLeastGrowth if at all.
+  static constexpr double kGrowth = 3, kLeastGrowth = 1.15;
+  // Factor on the variance that the spread of the solutions shows. It counts where it is larger than that of
+  // the gathers, which happens by chance as well, because there are only four: with .8, errors are a
+  // tenth too large where solutions have no noise, and a tenth too small where they have all of it.
+  static constexpr double kOfSolutions = .8;
+  // Rays whose value is below this fraction of the average radiance in view of the scene's surfaces are
+  // answered as if their value were as large. In daylit models that average is mostly that of the ground
+  // outside, a hundred times brighter than a room.
+  static constexpr double kDark = 1e-4;
+  // Limits on the rays of patches relative to -ad + -as.
+  static constexpr double kFewestForPatches = .25, kMostForPatches = 100;
+  // Cap on the rays of all sets, times the square of -Sa.
+  static constexpr double kMost = 6.5;
+};
+
 // Points at which almost no light arrives (estimator.cpp, two_halves.cpp).
 struct Dark {
   // -Sa stops early if the mean is below this fraction of the average radiance on the scene's surfaces. A

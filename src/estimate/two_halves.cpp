@@ -16,7 +16,7 @@ constexpr double kMostSets = 1e9;  // more than -Sx allows
 size_t TwoHalves::setsFor(const Half& other) const {
   const double count = static_cast<double>(other.sets), variance = other.variance / count;
   if (!(variance > 0)) return 1;
-  const double wanted = tuning::Stopping::kMargin * accuracy_ * other.total / count;
+  const double wanted = tuning::Stopping::kMargin * accuracy_ * std::max(other.total / count, floor_);
   const double sets = wanted > 0 ? variance / (2 * wanted * wanted) : kMostSets;
   return static_cast<size_t>(std::clamp(std::ceil(sets), 1., kMostSets));
 }
@@ -50,7 +50,7 @@ bool TwoHalves::isReached() const {
   double variance = 0;
   for (size_t half = 0; half < halves_.size(); ++half)
     variance += share(half) * share(half) * halves_[half].variance;
-  return std::sqrt(std::max(0., variance)) <= accuracy_ * average();
+  return std::sqrt(std::max(0., variance)) <= accuracy_ * std::max(average(), floor_);
 }
 
 double TwoHalves::average() const { return share(0) * halves_[0].total + share(1) * halves_[1].total; }

@@ -27,8 +27,10 @@ namespace rsphere {
 class TwoHalves {
  public:
   // accuracy: the fraction; 0: one set is enough. dark: if the average is below this,
-  // tuning::DiffuseGlances::kPools sets are enough, even if they do not reach the accuracy.
-  explicit TwoHalves(double accuracy, double dark = 0) : accuracy_(accuracy), dark_(dark) {}
+  // tuning::DiffuseGlances::kPools sets are enough, even if they do not reach the accuracy. floor: the
+  // accuracy of an average below this is a fraction of the floor.
+  explicit TwoHalves(double accuracy, double dark = 0, double floor = 0)
+      : accuracy_(accuracy), dark_(dark), floor_(floor) {}
 
   // The half (0 or 1) to which the next set belongs. Empty if there are enough sets.
   std::optional<size_t> next() const;
@@ -53,7 +55,7 @@ class TwoHalves {
   size_t setsFor(const Half& other) const;
   double average() const;
 
-  double accuracy_, dark_;
+  double accuracy_, dark_, floor_;
   std::array<Half, 2> halves_;
 };
 

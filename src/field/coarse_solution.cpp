@@ -19,6 +19,20 @@ using Imath::V2d;
 
 namespace {
 
+// Cap on the bounces whose light is computed. The light of further ones falls from bounce to bounce by the
+// same factor, and follows from it.
+constexpr int kMostComputed = 12;
+static_assert(kMostComputed >= 3);
+
+// The light of `further` bounces, if each has the same fraction of the light of the bounce before it. before,
+// more: the light of the last two bounces that are known.
+double geometricRest(double before, double more, int further) {
+  constexpr double kLargest = .99;  // even in a closed room of the whitest paint
+  if (!(before > 0) || !(more > 0)) return 0;
+  const double ratio = std::min(more / before, kLargest);
+  return more * ratio * (1 - std::pow(ratio, further)) / (1 - ratio);
+}
+
 // Binary logarithms of the numbers of hash buckets; the tables take 2 and 4 MB. A picture of an office looks
 // up 190,000 patches and 370,000 divisions. With 65,536 buckets, a third of the time was spent waiting for
 // memory in long chains.
@@ -32,8 +46,8 @@ bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
 
 // Publishes an object that a thread has made, unless another thread was first. Returns whether it was kept.
 template <class T>
-bool publish(std::atomic<const T*>& slot, std::unique_ptr<const T> made) {
-  const T* first = nullptr;
+bool publish(std::atomic<T*>& slot, std::unique_ptr<T> made) {
+  T* first = nullptr;
   if (!slot.compare_exchange_strong(first, made.get(), std::memory_order_acq_rel)) return false;
   made.release();
   return true;
@@ -81,13 +95,10 @@ void fitLinear(const std::vector<V2f>& at, Sites& sites) {
 
 }  // namespace
 
+// The light of a patch in one solution.
 struct Patch {
-  bool usable = false;  // it has a gather site
-  GatherSite site;
-  double reach = 0;  // harmonic mean distance of its surroundings
-  double share = 0;  // of the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
-  bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
+  double rays = 0;                           // that it sends
   std::atomic<const Sites*> sites{nullptr};  // set by spread()
   std::atomic<const PatchLinks*> links{nullptr};
   struct Light {
@@ -104,6 +115,21 @@ struct Patch {
   ~Patch() {
     delete sites.load(std::memory_order_relaxed);
     delete links.load(std::memory_order_relaxed);
+  }
+};
+
+// Where a patch lies; the same in all solutions.
+struct CoarseSolution::Frame {
+  bool usable = false;  // it has a gather site
+  GatherSite site;
+  double reach = 0;  // harmonic mean distance of its surroundings
+  double share = 0;  // of the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
+  bool isEnclosed = false;  // isInNarrowShell()
+  uint64_t seed = 0;
+  std::array<std::atomic<Patch*>, kMostSolutions> patches{};  // by solution; null before the first use
+
+  ~Frame() {
+    for (const auto& patch : patches) delete patch.load(std::memory_order_relaxed);
   }
 };
 
@@ -130,19 +156,20 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       room_(room),
       effort_(effortFor(options, room > 0)),
       rotation_(options.rotation),
-      bounces_(std::max(options.bounces, 1)),
+      bounces_(std::clamp(options.bounces, 1, kMostComputed)),
       coarserLinks_(std::max(options.coarserLinks, room > 0 || options.patchesAtFirst
                                                        ? 0
                                                        : tuning::CoarseSolution::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // single precision, like all light stored here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
-      patches_(std::make_unique<InsertOnce<CellKey, Patch>>(kLogPatchBuckets)),
+      frames_(std::make_unique<InsertOnce<CellKey, Frame>>(kLogPatchBuckets)),
       enclosed_(std::make_unique<InsertOnce<CellKey, bool>>(kLogDivisionBuckets)) {}
 
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
+  const double rays = options.rays / options.solutions;
   const double accuracy = std::max(options.accuracy / tuning::CoarseSolution::kUsualAccuracy,
                                    1 / tuning::CoarseSolution::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
@@ -157,44 +184,55 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
             tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
             tuning::CoarseSolution::kCoarserByLamps * far,
             near,
-            fewer * tuning::CoarseSolution::kRays * options.rays,
+            fewer * tuning::CoarseSolution::kRays * rays,
             first ? 1. : 0.,
             1,
             first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
                         tuning::CoarseSolution::kLeastRays
                   : fewer * tuning::CoarseSolution::kLeastRays,
-            options.rays,
+            rays,
             share,
             0};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
           far,
           near,
-          tuning::CoarseSolution::kRays * options.rays * std::max(1., 1 / accuracy),
+          tuning::CoarseSolution::kRays * rays * std::max(1., 1 / accuracy),
           0,
           tuning::CoarseSolution::kMoreRays,
           tuning::CoarseSolution::kLeastRays,
-          options.rays,
+          rays,
           share,
           tuning::CoarseSolution::kFewestForSlopes};
 }
 
-Patch& CoarseSolution::patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
-  return patches_->findOrAdd(key, [&](Patch& patch) {
+CoarseSolution::Frame& CoarseSolution::frameOf(const SurfaceChart& chart, const CellKey& key,
+                                               FieldRays& rays) {
+  return frames_->findOrAdd(key, [&](Frame& frame) {
     made_.fetch_add(1, std::memory_order_relaxed);
-    patch.seed = key.hash();
-    patch.light = std::make_unique<Patch::Light[]>(static_cast<size_t>(bounces_));
+    frame.seed = key.hash();
     if (const auto site = chart.site(grid_, key)) {
-      patch.usable = true;
-      patch.site = *site;
+      frame.usable = true;
+      frame.site = *site;
       const Surroundings seen = rays.surroundings(*site);
-      patch.reach = seen.harmonicMean;
-      patch.isEnclosed = isInNarrowShell(seen, chart);
+      frame.reach = seen.harmonicMean;
+      frame.isEnclosed = isInNarrowShell(seen, chart);
       const double far = std::max(room_, seen.rootMeanSquare);
-      patch.share =
+      frame.share =
           chart.stepU(grid_, key.level) * chart.stepV(grid_, key.level) * seen.covered / (far * far);
     }
   });
+}
+
+Patch& CoarseSolution::patchOf(Frame& frame, int solution) const {
+  std::atomic<Patch*>& slot = frame.patches[static_cast<size_t>(solution)];
+  if (Patch* patch = slot.load(std::memory_order_acquire)) return *patch;
+  auto made = std::make_unique<Patch>();
+  made->seed = solution == 0 ? frame.seed : mixBits(frame.seed ^ static_cast<uint64_t>(solution));
+  made->rays = raysOf(frame);
+  made->light = std::make_unique<Patch::Light[]>(static_cast<size_t>(bounces_));
+  publish<Patch>(slot, std::move(made));
+  return *slot.load(std::memory_order_acquire);
 }
 
 // The level of the smallest patches of a surface. leastSide: their side relative to the surface's extent.
@@ -230,10 +268,10 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
     found.finest = finest;
     for (int level = std::min(grid_.levelOf(std::min(chart.extent(), open)), finest); level <= found.finest;
          ++level) {
-      const Patch& patch = patchOf(chart, chart.cellAt(grid_, level, u, v), rays);
+      const Frame& frame = frameOf(chart, chart.cellAt(grid_, level, u, v), rays);
       found.level = level;
-      found.side = patch.usable ? effort_.spacing * std::min(patch.reach, open) : 0;
-      if (patch.isEnclosed && isEnclosed(chart, rays)) {
+      found.side = frame.usable ? effort_.spacing * std::min(frame.reach, open) : 0;
+      if (frame.isEnclosed && isEnclosed(chart, rays)) {
         found.isEnclosed = true;
         found.finest = std::max(level, finestEnclosed);
       }
@@ -244,21 +282,21 @@ const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& c
 
 // Chooses the sites of a patch: places on it that its first site sees, so that none lies below or behind an
 // object on the surface.
-void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellKey& key, FieldRays& rays) {
+void CoarseSolution::spread(Patch& patch, const Frame& frame, const SurfaceChart& chart, const CellKey& key,
+                            FieldRays& rays) {
   if (patch.sites.load(std::memory_order_acquire)) return;
   auto sites = std::make_unique<Sites>();
   std::vector<V2f> at;
   const auto add = [&](const V2d& place) {
     const auto site = chart.siteIn(grid_, key, place);
-    if (!site || !rays.sees(patch.site.point, site->point)) return;
+    if (!site || !rays.sees(frame.site.point, site->point)) return;
     sites->all.emplace_back().site = *site;
     at.emplace_back(place);
   };
   Random random(mixBits(patch.seed ^ rotation_));
   // The patch is divided into squares, with one place in each. Places in opposite squares are symmetric about
   // the middle of the patch, so that their mean is exact where light varies linearly.
-  const double sent = raysOf(patch);
-  const int across = sent < tuning::CoarseSolution::kManyRays ? 2 : 4;
+  const int across = patch.rays < tuning::CoarseSolution::kManyRays ? 2 : 4;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across / 2; ++j) {
       const V2d place = V2d(i + random.uniform(), j + random.uniform()) / across;
@@ -266,12 +304,12 @@ void CoarseSolution::spread(Patch& patch, const SurfaceChart& chart, const CellK
       add(V2d(1, 1) - place);
     }
   }
-  if (sites->all.empty()) sites->all.emplace_back().site = patch.site;
-  if (sent >= effort_.forSlopes) fitLinear(at, *sites);
-  publish<Sites>(patch.sites, std::move(sites));
+  if (sites->all.empty()) sites->all.emplace_back().site = frame.site;
+  if (patch.rays >= effort_.forSlopes) fitLinear(at, *sites);
+  publish<const Sites>(patch.sites, std::move(sites));
 }
 
-PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker) {
+PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Asker asker, int solution) {
   auto chart = SurfaceChart::of(scene_, grid_, place);
   if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
@@ -291,14 +329,15 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
                             division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels);
   for (int tried = level; tried <= most; ++tried) {
     const CellKey key = chart->cellAt(grid_, tried, chart->u(), chart->v());
-    Patch& patch = patchOf(*chart, key, rays);
-    if (!patch.usable || !rays.sees(patch.site.point, above)) continue;
+    Frame& frame = frameOf(*chart, key, rays);
+    if (!frame.usable || !rays.sees(frame.site.point, above)) continue;
     // All rays of a gather that hit a patch share its noise. If they outnumber the rays of the patch,
     // following them is less noisy.
     const double sideU = chart->stepU(grid_, tried), sideV = chart->stepV(grid_, tried);
     const double hits = effort_.asked * sideU * sideV / (kPi * place.distance * place.distance);
-    if (asker == Asker::path && hits > raysOf(patch)) return {};
-    spread(patch, *chart, key, rays);
+    if (asker == Asker::path && hits > raysOf(frame)) return {};
+    Patch& patch = patchOf(frame, solution);
+    spread(patch, frame, *chart, key, rays);
     const V2d at(chart->u() / sideU - static_cast<double>(key.i),
                  chart->v() / sideV - static_cast<double>(key.j));
     return {&patch, V2f(at) - patch.sites.load(std::memory_order_acquire)->middle};
@@ -308,8 +347,8 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
 
 // Patches that contribute more to the light of other surfaces get more rays, because their noise matters
 // more.
-double CoarseSolution::raysOf(const Patch& patch) const {
-  const double part = std::clamp(patch.share / effort_.usualShare, effort_.fewer, effort_.more);
+double CoarseSolution::raysOf(const Frame& frame) const {
+  const double part = std::clamp(frame.share / effort_.usualShare, effort_.fewer, effort_.more);
   return std::clamp(effort_.usual * part, effort_.least, tuning::CoarseSolution::kMostRays);
 }
 
@@ -317,11 +356,11 @@ const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
   if (const PatchLinks* links = patch.links.load(std::memory_order_acquire)) return *links;
   const std::vector<PatchSite>& sites = patch.sites.load(std::memory_order_acquire)->all;
   const auto each =
-      std::max(1, static_cast<int>(std::lround(raysOf(patch) / static_cast<double>(sites.size()))));
+      std::max(1, static_cast<int>(std::lround(patch.rays / static_cast<double>(sites.size()))));
   auto made =
       std::make_unique<const PatchLinks>(rays.link(sites, each * static_cast<int>(sites.size()), patch.seed));
   const auto sent = static_cast<size_t>(made->rays);
-  if (publish<PatchLinks>(patch.links, std::move(made))) {
+  if (publish<const PatchLinks>(patch.links, std::move(made))) {
     linked_.fetch_add(1, std::memory_order_relaxed);
     rays_.fetch_add(sent, std::memory_order_relaxed);
   }
@@ -330,20 +369,29 @@ const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {
 
 Color CoarseSolution::light(const PatchPlace& place, int bounces, FieldRays& rays) {
   if (bounces <= 0) return ambient_;
-  bounces = std::min(bounces, bounces_);
+  if (bounces > bounces_) return lightBeyond(place, bounces, rays);
   Patch::Light& kept = place.patch->light[bounces - 1];
   if (!kept.known.load(std::memory_order_acquire)) {
     Color inBands;
     const LinearColor sum = sumOf(linksOf(*place.patch, rays), bounces, rays, inBands);
     kept.store(sum);
     const Bands bands = bandsBeside(sum.mean, inBands);
-    if (bands) publish<Bands>(kept.bands, std::make_unique<const Bands>(bands));
+    if (bands) publish<const Bands>(kept.bands, std::make_unique<const Bands>(bands));
     kept.known.store(true, std::memory_order_release);
   }
   const LinearColor light = kept.load();
   const V3f here = light.at(place.at);
   const Bands* bands = kept.bands.load(std::memory_order_relaxed);
   return bands ? Color(V3d(here), bandsBeside(here, Color(V3d(light.mean), *bands))) : Color(V3d(here));
+}
+
+// The light of more bounces than are computed.
+Color CoarseSolution::lightBeyond(const PatchPlace& place, int bounces, FieldRays& rays) {
+  const Color all = light(place, bounces_, rays), fewer = light(place, bounces_ - 1, rays),
+              least = light(place, bounces_ - 2, rays);
+  return all + combined(fewer - least, all - fewer, [&](double before, double more) {
+           return geometricRest(before, more, bounces - bounces_);
+         });
 }
 
 // The light of a patch from its links. inBands: receives the mean with bands, if anything has bands.

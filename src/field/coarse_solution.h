@@ -24,6 +24,9 @@
 // matters for near patches, whose noise many rays of the gather share. Outdoors, patches of the ground send 8
 // rays; without this rule, a sensor close above the ground had 25% of noise instead of the 4% of paths.
 //
+// Errors: there may be several independent solutions with the same patches, each with its share of the rays
+// (FieldOptions::solutions). Their spread shows the noise that all answers from one solution share.
+//
 // Threads: any number may query at the same time, and none waits. If two threads need the same patch at the
 // same time, both may link it; the links are identical, and the first are kept. An answer depends only on the
 // place and the random numbers of the query, not on earlier queries or on the thread.
@@ -43,6 +46,8 @@ namespace rsphere {
 
 class CoarseSolution {
  public:
+  static constexpr size_t kMostSolutions = 4;  // of FieldOptions::solutions
+
   // Keeps a reference to the scene. bounds: of everything that rays can hit. room: the size of a room that is
   // lit through openings (world units); few rays hit the openings, so that important patches need more rays.
   // 0: lamps light the surfaces directly, and more rays would not pay.
@@ -54,7 +59,8 @@ class CoarseSolution {
   // patch would be lent to a dark neighbour without the reverse. Rays that are traced to link a patch may use
   // larger patches than paths do (FieldOptions::coarserLinks).
   enum class Asker : uint8_t { path, patch };
-  PatchPlace find(const SurfacePlace& place, FieldRays& rays, Asker asker = Asker::path);
+  // solution: from 0 to FieldOptions::solutions - 1.
+  PatchPlace find(const SurfacePlace& place, FieldRays& rays, Asker asker = Asker::path, int solution = 0);
 
   // The mean radiance that arrives at a place on a patch (irradiance over pi) after at most `bounces` diffuse
   // reflections; -av for 0 reflections.
@@ -86,13 +92,17 @@ class CoarseSolution {
   static Effort effortFor(const FieldOptions& options, bool daylit);
 
   struct Division;
+  struct Frame;
   int finestLevel(const SurfaceChart& chart, double leastSide) const;
   bool isEnclosed(const SurfaceChart& chart, FieldRays& rays);
   const Division& divisionAt(const SurfaceChart& chart, int finest, FieldRays& rays);
-  Patch& patchOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays);
-  void spread(Patch& patch, const SurfaceChart& chart, const CellKey& key, FieldRays& rays);
-  double raysOf(const Patch& patch) const;
+  Frame& frameOf(const SurfaceChart& chart, const CellKey& key, FieldRays& rays);
+  Patch& patchOf(Frame& frame, int solution) const;
+  void spread(Patch& patch, const Frame& frame, const SurfaceChart& chart, const CellKey& key,
+              FieldRays& rays);
+  double raysOf(const Frame& frame) const;
   const PatchLinks& linksOf(Patch& patch, FieldRays& rays);
+  Color lightBeyond(const PatchPlace& place, int bounces, FieldRays& rays);
   LinearColor sumOf(const PatchLinks& links, int bounces, FieldRays& rays, Color& inBands);
 
   const Scene& scene_;
@@ -100,13 +110,13 @@ class CoarseSolution {
   double room_;
   Effort effort_;
   uint64_t rotation_;
-  int bounces_;  // -ab
+  int bounces_;  // whose light is computed: -ab, up to a limit
   int coarserLinks_;
   bool hasBands_;
   Color ambient_;
   std::atomic<size_t> made_{0}, linked_{0}, rays_{0};
   std::unique_ptr<InsertOnce<CellKey, Division>> divisions_;
-  std::unique_ptr<InsertOnce<CellKey, Patch>> patches_;
+  std::unique_ptr<InsertOnce<CellKey, Frame>> frames_;
   std::unique_ptr<InsertOnce<CellKey, bool>> enclosed_;  // key: the first cell of the surface's chart
 };
 

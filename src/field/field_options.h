@@ -11,6 +11,7 @@ struct FieldOptions {
   double accuracy = .1;  // -aa
   int resolution = 256;  // -ar  0: no limit
   double rays = 1536;    // -ad + -as; the number of rays of a patch is proportional to it
+  int solutions = 1;     // independent solutions (coarse_solution.h), which share these rays
   // Patches of the coarse solution that are only seen by other patches are enlarged by this number of levels.
   // Each level doubles the side of a patch.
   int coarserLinks = 0;

@@ -39,7 +39,8 @@ struct PointAnswer {
   std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
   bool isDark = false;                // almost no direction found light, or -Sa stopped because there was so
                                       // little
-  bool reached = true;                // whether the standard error requested with -Sa was reached
+  double relativeError = 0;  // brightnessError relative to the mean's brightness, or to the floor of -Sa
+  bool reached = true;       // whether the standard error requested with -Sa was reached
 };
 
 }  // namespace rsphere

@@ -20,7 +20,9 @@ struct SphereOptions {
   int mostDirections = 4096;                    // -Sx  of one set
   int mostForAccuracy = 0;                      // limit for all sets of -Sa, if it is larger than -Sx
   double densityFactor = 1;                     // -Sk
-  double accuracy = 0;                          // -Sa  0: off
+  double accuracy = 0;                          // -Sa  0: off; also of rays
+  double accuracyFloor = -1;                    // -Sa  least value (W/sr/m2; W/m2 with -i and -I) to which
+                                                // the accuracy refers; below 0: found from the scene
   Weights weights = Weights::silhouettes;       // -Sw
   bool basicRadiance = false;                   // -Sb
   bool everyDirection = false;                  // -Sd

@@ -23,10 +23,11 @@ Raises rsphere.Error.)";
 constexpr const char* kOptions = R"(
 Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
 ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
-irradiance_at_surface (both of rays), directions, most_directions, accuracy, bins (zones of directions; all of
-points), outputs (letters of -o), threads (0: one for each core), arguments (a list of words as on the command
-line). Any other option of the command is a keyword without its hyphen: ab=5, av=(.1, .1, .1), dv=False;
-as_=512 is -as 512. Options that are neither switches nor have values, such as -pY, go into arguments=["-pY"].
+irradiance_at_surface (both of rays), accuracy (relative standard error of rays and points), directions,
+most_directions, bins (zones of directions; all of points), outputs (letters of -o), threads (0: one for each
+core), arguments (a list of words as on the command line). Any other option of the command is a keyword
+without its hyphen: ab=5, av=(.1, .1, .1), dv=False; as_=512 is -as 512. Options that are neither switches nor
+have values, such as -pY, go into arguments=["-pY"].
 
 Calls that repeat the same options are fast; only threads, outputs and colors may differ.
 Raises rsphere.Error.)";
@@ -35,8 +36,9 @@ constexpr const char* kTrace = R"(Traces rays: an array of shape (n, 6), origins
 
 Returns an object with an array for each letter of outputs ("v" if not given), and None for others:
 v value (n, 3): radiance (W/sr/m2), or irradiance (W/m2) with irradiance_at_origin (-I) or
-irradiance_at_surface (-i); o origin, d direction, p point, n normal, N unperturbed_normal,
-L first_length, l effective_length, c local_coordinates, w weight, W coefficient, V contribution,
+irradiance_at_surface (-i); e standard_error: that of value, estimated;
+o origin, d direction, p point, n normal, N unperturbed_normal, L first_length, l effective_length,
+c local_coordinates, w weight, W coefficient, V contribution,
 r mirrored_value, R mirrored_length, x unmirrored_value, X unmirrored_length, s surface, m modifier,
 M material.
 )";

@@ -128,6 +128,7 @@ py::object trace(const py::object& self, const py::object& given, const py::kwar
   RayAnswers a = withoutLock(options, [&] { return scene.trace(rays, options); });
   py::dict arrays;
   arrays["value"] = arrayOf(std::move(a.value), a.size);
+  arrays["standard_error"] = arrayOf(std::move(a.standardError), a.size);
   arrays["origin"] = arrayOf(std::move(a.origin), a.size);
   arrays["direction"] = arrayOf(std::move(a.direction), a.size);
   arrays["point"] = arrayOf(std::move(a.point), a.size);

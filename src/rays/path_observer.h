@@ -37,6 +37,8 @@ struct PathRequest {
   // leavesOutIndirect: the indirect light of the surface hit by the primary ray is left out.
   // leavesOutLobes: the samples of rough reflection and transmission at that surface are left out.
   bool leavesOutIndirect = false, leavesOutLobes = false;
+  // The number of rays of the gathers at the first diffuse surface; 0: -ad plus -as.
+  int rays = 0;
   // If not null, paths from both ends provide the indirect light of plain surfaces (plain_surfaces.h) that
   // the path hits before its first diffuse reflection. If the primary ray hits a plain surface directly or
   // through panes, the surface's diffuse reflection is left out, and so are shadow rays for its rough
@@ -64,7 +66,8 @@ struct TracedRay : RayQuery, SurfaceHit, RayResult {
   // straight through panes that also transmit shadow rays; a distant source also through parallel-sided
   // slabs. If it shows several, this is the one that is not mirrored, otherwise the first.
   ShownSource shown;
-  LeftOut leftOut;  // the parts of the surface's light that the request left out
+  bool gathers = false;  // whether the light of its first diffuse surface was gathered
+  LeftOut leftOut;       // the parts of the surface's light that the request left out
 };
 
 }  // namespace rsphere

@@ -34,8 +34,10 @@ class SurfaceName {
 // and -I, radiances are those of a diffuse surface of reflectance pi, so that they equal its irradiance
 // (W/m2).
 struct RayAnswer {
-  V3d origin{0, 0, 0}, direction{0, 0, 0};          // o d
-  Radiance value;                                   // v  with -i and -I equal to the irradiance
+  V3d origin{0, 0, 0}, direction{0, 0, 0};  // o d
+  Radiance value;                           // v  with -i and -I equal to the irradiance
+  Radiance standardError;                   // e  of v; with its brightness:
+  double brightnessError = 0;
   Radiance mirroredContribution;                    // r
   Radiance unmirroredContribution;                  // x
   double mirroredLength = kInfiniteLength;          // R

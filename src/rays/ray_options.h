@@ -42,10 +42,16 @@ struct RayOptions {
   // option: sphere mode sets it, because each of its directions has a small -ad, and all share one coarse
   // solution.
   int leastForPatches = 0;
+  // If it is not 0, used instead of -ad + -as for the number of rays of a patch. Not an option: set for -Sa.
+  double raysForPatches = 0;
+  int solutions = 1;        // FieldOptions::solutions. Not an option: more than one where errors are stated
   int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: set for pictures
   std::string ambientFile;  // -af
   double fieldMemory = 0;   // -Sm  MB; 0: no limit
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; at least one is empty
+  // The number of diffuse bounces, or of reflections, after which no light is left: even of .99 reflected,
+  // 4e-5 remains.
+  static constexpr int kAllBounces = 1000;
   // limits
   int reflectionLimit = -10;  // -lr  absolute value: limit, 0: none; not above 0: Russian roulette below -lw
   double weightLimit = 1e-4;  // -lw

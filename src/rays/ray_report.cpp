@@ -53,7 +53,7 @@ RayAnswer branchAnswer(const PreparedScene& prepared, const RayEnd& end, const R
 }
 
 bool needsValue(std::string_view letters) {
-  return letters.find_first_of("vVrxlRXnW") != std::string_view::npos;
+  return letters.find_first_of("veVrxlRXnW") != std::string_view::npos;
 }
 
 }  // namespace rsphere

@@ -17,10 +17,10 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
-               ambientSuperSamples, firstRays, ambientValue, ambientWeight, leastForPatches, coarserLinks,
-               ambientFile, fieldMemory, ambientExcluded, ambientIncluded, reflectionLimit, weightLimit,
-               mediumExtinction, mediumAlbedo, mediumEccentricity, mediumSampling, definitions,
-               backFacesVisible, uncorrelated, rotation] = o;
+               ambientSuperSamples, firstRays, ambientValue, ambientWeight, leastForPatches, raysForPatches,
+               solutions, coarserLinks, ambientFile, fieldMemory, ambientExcluded, ambientIncluded,
+               reflectionLimit, weightLimit, mediumExtinction, mediumAlbedo, mediumEccentricity,
+               mediumSampling, definitions, backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
   print.add(uint64_t{8});  // increase this if gathering changes without a new kVersion
@@ -36,6 +36,8 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
   if (wavelengths != WavelengthLimits())
     for (const double x : {wavelengths.shortest, wavelengths.longest}) print.add(x);
   if (rotation != 0) print.add(rotation);
+  if (raysForPatches != 0) print.add(raysForPatches);
+  if (solutions != 1) print.add(static_cast<uint64_t>(solutions) << 32);
   if (coarserLinks != 0) print.add(static_cast<uint64_t>(coarserLinks));
   for (const bool b : {sourcesVisible, backFacesVisible, uncorrelated, basicRadiance}) print.add(uint64_t{b});
   for (const auto* names : {&ambientExcluded, &ambientIncluded}) {
@@ -54,12 +56,14 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
 FieldOptions fieldOptions(const RayOptions& o) {
   FieldOptions field;
   // Names all members, so that this fails to compile when one is added.
-  auto& [bounces, accuracy, resolution, rays, coarserLinks, patchesAtFirst, ambientValue, spectral, rotation,
-         memory] = field;
+  auto& [bounces, accuracy, resolution, rays, solutions, coarserLinks, patchesAtFirst, ambientValue, spectral,
+         rotation, memory] = field;
   bounces = o.ambientBounces;
   accuracy = o.ambientAccuracy;
   resolution = o.ambientResolution;
-  rays = std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
+  rays = o.raysForPatches > 0 ? o.raysForPatches
+                              : std::max(o.ambientDivisions + o.ambientSuperSamples, o.leastForPatches);
+  solutions = o.solutions;
   coarserLinks = o.coarserLinks;
   patchesAtFirst = o.leastForPatches > 0;
   ambientValue = o.ambientValue;

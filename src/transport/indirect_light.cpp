@@ -109,8 +109,8 @@ struct Gather {
 // noise is most of the error, while most of the time goes into patches, which all sensors share.
 bool mayAddRays(const Gather& from, int rays) {
   return from.settings.caches.field && isRayMode(from.settings.mode) && from.end.hit.surface == kNone &&
-         from.end.context.ambientLevel == 0 && from.prepared.options().ambientSuperSamples > 0 &&
-         rays >= 4 * GatherNoise::kBins;
+         from.state.request.rays == 0 && from.end.context.ambientLevel == 0 &&
+         from.prepared.options().ambientSuperSamples > 0 && rays >= 4 * GatherNoise::kBins;
 }
 
 // Half of the rays of a gather that may add more.
@@ -172,30 +172,34 @@ void gatherAccurately(const Gather& from, int rays, Radiance& value) {
 
 }  // namespace
 
-void IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+int IndirectLight::add(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const RayOptions& o = t_.options();
   const PathContext& ray = end.context;
   if (o.ambientDivisions <= 0 || ray.ambientLevel >= o.ambientBounces || !t_.isAmbient(end.hit.surface)) {
     value += side.coefficient * o.ambientValue;
-    return;
+    return 0;
   }
   if (ray.depth == 0 && state_.request.leavesOutIndirect) {
     state_.leftOut.indirect = true;
-    return;
+    return 0;
   }
-  if (state_.links) return link(end, side);
+  if (state_.links) {
+    link(end, side);
+    return 0;
+  }
   const FirstBounce first = settings_.mode.firstBounce;
   if (ray.ambientLevel > 0 || first == FirstBounce::fromPatches ||
       (first == FirstBounce::gathered && (ray.kinds & kSpecular))) {
     Coefficient asked = side.coefficient;
-    if (settings_.caches.coarse && !asksForPatch(state_, ray, asked)) return;
+    if (settings_.caches.coarse && !asksForPatch(state_, ray, asked)) return 0;
     const DiffuseSide chosen = withCoefficient(side, asked);
-    if (settings_.caches.coarse && addFromPatch(end, chosen, value)) return;
+    if (settings_.caches.coarse && addFromPatch(end, chosen, value)) return 0;
     return gather(end, chosen, value);
   }
-  if (first == FirstBounce::interpolated && settings_.caches.field && addInterpolated(end, side, value))
-    return;
-  gather(end, side, value);
+  if (first == FirstBounce::interpolated && settings_.mode.interpolates && settings_.caches.field &&
+      addInterpolated(end, side, value))
+    return 0;
+  return gather(end, side, value);
 }
 
 // Adds light from the irradiance cache. Returns false, and adds nothing, if the cache cannot be used here.
@@ -224,7 +228,7 @@ PatchPlace IndirectLight::patchAt(const RayEnd& end, const DiffuseSide& side) {
   if (!isOrdinary(end, side, t_.options().medium())) return {};
   TracedFieldRays rays(t_, follower_, end.context.depth);
   const auto asker = state_.links ? CoarseSolution::Asker::patch : CoarseSolution::Asker::path;
-  return settings_.caches.coarse->find(placeOf(end, side), rays, asker);
+  return settings_.caches.coarse->find(placeOf(end, side), rays, asker, settings_.mode.solution);
 }
 
 void IndirectLight::endPath() {
@@ -237,13 +241,14 @@ void IndirectLight::endPath() {
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
-  const double asked = o.ambientDivisions + o.ambientSuperSamples,
+  const int requested = state_.request.rays;
+  const double divisions = requested > 0 ? requested : o.ambientDivisions,
+               asked = requested > 0 ? requested : o.ambientDivisions + o.ambientSuperSamples,
                weighted = asked * std::min(ray.weight, 1.);
   if (settings_.caches.field) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
   // With more directions than this, each would be below the weight limit, and most would end. The factor .8
   // is RADIANCE's.
-  const double most =
-      asked * .8 * maxChannel(coefficient) * ray.weight / (o.ambientDivisions * o.weightLimit + 1e-20);
+  const double most = asked * .8 * maxChannel(coefficient) * ray.weight / (divisions * o.weightLimit + 1e-20);
   const int side = std::max(1, static_cast<int>(std::sqrt(std::min(weighted, most)) + .5));
   return side * side;
 }
@@ -264,18 +269,23 @@ int IndirectLight::firstRays() const {
   return o.firstRays > 0 ? o.firstRays : 1 << std::min(o.ambientBounces - 1, kMostDoublings);
 }
 
-void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
+int IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& value) {
   const int rays = raysOf(end.context, side.coefficient), level = end.context.ambientLevel;
+  if (level == 0) state_.gathers = true;
   const Gather from{t_, settings_, aimsAt(end, settings_, state_), state_, follower_, end, side};
-  if (mayAddRays(from, rays)) return gatherAccurately(from, rays, value);
+  if (mayAddRays(from, rays)) {
+    gatherAccurately(from, rays, value);
+    return rays;
+  }
   const auto send = [&](int count, int weighedAs, double share) {
     from.send(count, weighedAs, share, [&](const Radiance& part) { value += part; });
+    return rays;
   };
   const int times = level <= 1 ? firstRays() : 1;
   if (times == 1) return send(rays, rays, 1);
   if (level == 1) {
     if (!looksOnly_) send(rays, rays, times);
-    return;
+    return rays;
   }
   // Sent separately, so that the rays that continue are as well stratified as without the additional rays.
   looksOnly_ = false;
@@ -283,6 +293,7 @@ void IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance&
   looksOnly_ = true;
   send(rays * (times - 1), rays, 1 - 1. / times);
   looksOnly_ = false;
+  return rays;
 }
 
 // Links the patch that sent a ray to the patch at the diffuse surface where the ray ended. If there is no

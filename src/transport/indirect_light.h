@@ -27,8 +27,9 @@ class IndirectLight : PathPart {
   explicit IndirectLight(const PathPart& path) : PathPart(path) {}
 
   // Adds the indirect light of a side to the radiance of a ray (W/sr/m2); beyond -ab bounces, adds the
-  // ambient value (-av). Light from behind the surface is excluded.
-  void add(const RayEnd& end, const DiffuseSide& side, Radiance& value);
+  // ambient value (-av). Light from behind the surface is excluded. Returns the number of rays if the light
+  // was gathered here, otherwise 0.
+  int add(const RayEnd& end, const DiffuseSide& side, Radiance& value);
 
   // Lets the cache free memory that the path has used. Call this at the end of each primary ray.
   void endPath();
@@ -39,7 +40,7 @@ class IndirectLight : PathPart {
   PatchPlace patchAt(const RayEnd& end, const DiffuseSide& side);
   int raysOf(const PathContext& ray, const Coefficient& coefficient) const;
   int firstRays() const;
-  void gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
+  int gather(const RayEnd& end, const DiffuseSide& side, Radiance& value);
   void link(const RayEnd& end, const DiffuseSide& side);
 
   FieldReader reader_;

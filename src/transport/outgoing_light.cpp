@@ -109,31 +109,45 @@ template <ScattersLight S>
   return mayShare;
 }
 
+// The number of times that the direct light of a surface is drawn. Jittered shadow rays to light sources are
+// noisy. A gather at the surface sends so many rays that drawing this light several times takes no time
+// beside them. Ray trees (-ot) show each source once. gathered: rays of the gather.
+int OutgoingLight::drawsOfDirect(const RayEnd& end, int gathered) const {
+  if (end.context.ambientLevel > 0 || !(t_.options().directJitter > 0)) return 1;
+  if (state_.request.observer && state_.request.shadows != ShownShadows::thatArrive) return 1;
+  return std::max(1, gathered / tuning::DirectLight::kRaysForDraw);
+}
+
 // Light of sources by shadow rays from a point on one side. shares: whether samples of a lobe estimate a part
-// of it.
+// of it. gathered: rays of the gather at that point; 0: none.
 template <ScattersLight S>
 [[gnu::always_inline]] inline void OutgoingLight::addDirect(const RayEnd& end, const V3d& point,
                                                             S& scattering, Component side,
-                                                            const Owners& owners, bool shares,
+                                                            const Owners& owners, bool shares, int gathered,
                                                             Radiance& value) {
   const PlainSurfaces* const known =
       owners.ofSources == Owner::eye ? nullptr : &state_.request.vertexLight->surfaces();
   if (known && (known->coverage().allDirect || !(owners.rest > 0))) return;
+  const bool chosen = t_.options().chosenSources > 0 && scattering.isEven();
+  const int draws = shares ? 1 : drawsOfDirect(end, gathered);
+  const double factor = (known && !chosen ? owners.rest : 1) / draws;
   const auto coefficient = [&](const V3d& toSource, double solidAngle) {
-    return scattering.coefficient(side, toSource, solidAngle, state_.random);
+    return scattering.coefficient(side, toSource, solidAngle, state_.random) * factor;
   };
-  if (t_.options().chosenSources > 0 && scattering.isEven())
-    return direct.addOfChosen({end, point}, coefficient, scattering.front(), value);
   const auto partOfLobe = [&](const SourceSample& sample) {
     return lobesCoefficient(t_, scattering, sample);
   };
   const PartOfLobe part(partOfLobe);
-  const PartOfLobe* const left = shares ? &part : nullptr;
-  if (!known) return direct.add({end, point}, coefficient, scattering.front(), left, value);
-  const auto ofRest = [&](const V3d& toSource, double solidAngle) {
-    return coefficient(toSource, solidAngle) * owners.rest;
-  };
-  direct.add({end, point, known}, ofRest, scattering.front(), left, value);
+  Radiance sum;
+  for (int i = 0; i < draws; ++i) {
+    Radiance drawn = value / draws;  // the light so far, with which -dt compares
+    if (chosen)
+      direct.addOfChosen({end, point}, coefficient, scattering.front(), drawn);
+    else
+      direct.add({end, point, known}, coefficient, scattering.front(), shares ? &part : nullptr, drawn);
+    sum += drawn;
+  }
+  value = sum;
 }
 
 void OutgoingLight::addEmitted(const RayEnd& end, const Emits& emits, RayResult& result) {
@@ -167,18 +181,20 @@ void OutgoingLight::addScattered(RayEnd& end, S& scattering, RayResult& result) 
   if (owners.indirect != Owner::eye) end.known = knownAfter(owners.indirect);
   for (const Component side : scattering.components()) {
     const V3d point = end.hit.point + scattering.offset(side);
+    int gathered = 0;  // number of rays
     if (const Coefficient diffuse = scattering.indirect(side); maxChannel(diffuse) > kNegligible) {
       const V3d &normal = scattering.normal(side), &trueNormal = scattering.trueNormal();
       if (owners.indirect == Owner::here) addFromVertices(end, normal, diffuse, result.value);
       const Coefficient followed = diffuse * owners.rest;
       if (owners.rest > 0)
-        indirect.add(end,
-                     side == Component::reflected
-                         ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
-                         : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
-                     result.value);
+        gathered = indirect.add(end,
+                                side == Component::reflected
+                                    ? DiffuseSide{point, normal, trueNormal, kReflectedAmbient, followed}
+                                    : DiffuseSide{point, -normal, -trueNormal, kTransmittedAmbient, followed},
+                                result.value);
     }
-    if (scattering.takesDirect(side)) addDirect(end, point, scattering, side, owners, shared, result.value);
+    if (scattering.takesDirect(side))
+      addDirect(end, point, scattering, side, owners, shared, gathered, result.value);
   }
 }
 

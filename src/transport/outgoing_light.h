@@ -45,7 +45,8 @@ class OutgoingLight : PathPart {
   bool addLobe(const RayEnd& end, S& scattering, Component c, bool mayShare, RayResult& result);
   template <ScattersLight S>
   void addDirect(const RayEnd& end, const V3d& point, S& scattering, Component side, const Owners& owners,
-                 bool shares, Radiance& value);
+                 bool shares, int gathered, Radiance& value);
+  int drawsOfDirect(const RayEnd& end, int gathered) const;
 
   VertexLight::Scratch scratch_;
 };

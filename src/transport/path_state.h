@@ -31,6 +31,10 @@ struct TracingMode {
   // a closed metal cylinder, for example, paths branch at each surface, into thousands of rays. The mean does
   // not change.
   bool boundsWork = false;
+  // Whether FirstBounce::interpolated uses the irradiance cache. If not, the light of the first diffuse
+  // surface is gathered, and that of later ones comes from the coarse solution.
+  bool interpolates = true;
+  int solution = 0;  // of interpolated light: FieldOptions::solutions
 };
 
 // Tracers of sphere mode use another value of firstBounce.
@@ -61,6 +65,7 @@ struct PathState {
   ShownSource shown;            // along the primary ray
   Hit firstHit;                 // of the primary ray
   LeftOut leftOut;              // of the primary ray
+  bool gathers = false;         // at the first diffuse surface
   bool glimpses = false;        // gathers send one direction each (PathTracer::glimpse())
   Descendants descendants;      // limited by goesOnAlong()
   PatchLinks* links = nullptr;  // of a path from a patch: receives the links and the light that it finds

@@ -177,7 +177,8 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
 // Each level of nested gathers uses a separate Path.
 InnerPath PathTracer::Path::beginGather(uint64_t seed, const V3d& normal) {
   if (!gatherer_)
-    gatherer_ = std::make_unique<Path>(t_, PathSettings{settings_.caches, settings_.caches.aims, {}});
+    gatherer_ = std::make_unique<Path>(
+        t_, PathSettings{settings_.caches, settings_.caches.aims, {.solution = settings_.mode.solution}});
   gatherer_->begin(seed ^ rotationBits(t_.options()), normal);
   return {gatherer_->state_, gatherer_->settings_, *gatherer_};
 }
@@ -195,6 +196,7 @@ TracedRay PathTracer::Path::traced(const RayEnd& end, const RayResult& result) c
   ray.firstHit = state_.firstHit;
   ray.shown = state_.shown;
   ray.leftOut = state_.leftOut;
+  ray.gathers = state_.gathers;
   return ray;
 }
 

@@ -110,6 +110,8 @@ struct SpecularLight {
 
 // Shadow rays (direct_light.cpp).
 struct DirectLight {
+  // Rays of a gather for each time that the direct light of its surface is drawn (outgoing_light.cpp).
+  static constexpr int kRaysForDraw = 64;
   // With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample
   // is then spread over more than half of its source.
   static constexpr double kWideJitter = .5;

@@ -417,8 +417,8 @@ class Threads(unittest.TestCase):
 
     def test_options_of_the_other_mode(self):
         scene = rsphere.Scene(FURNACE)
-        with self.assertRaisesRegex(rsphere.Error, "option '-Sa': needs sphere mode"):
-            scene.trace([[0, 0, 0, 0, 0, 1]], accuracy=0.1)
+        with self.assertRaisesRegex(rsphere.Error, "option '-Sn': needs sphere mode"):
+            scene.trace([[0, 0, 0, 0, 0, 1]], directions=10)
         with self.assertRaisesRegex(rsphere.Error, "option '-I': needs ray mode"):
             scene.sphere([[0, 0, 0]], irradiance_at_origin=True)
 

@@ -30,6 +30,7 @@ struct Quantity {
 struct RayAnswers {
   size_t size = 0;                    // the number of rays
   Quantity value;                     // v  radiance (W/sr/m2) along the ray; irradiance (W/m2) with -i and -I
+  Quantity standardError;             // e  estimated standard error of value
   Quantity origin;                    // o  origin of the traced ray
   Quantity direction;                 // d  of length 1
   Quantity point;                     // p  point that the ray hits
@@ -63,7 +64,7 @@ struct PointAnswers {
   Quantity cylindricalIrradiance;  // C  about the z axis: 1/pi times the integral of L sin(angle to z) (W/m2)
   Quantity semicylindricalIrradiance;  // S  of the curved surface of a half cylinder towards -So (W/m2)
   Quantity hemisphericalIrradiance;    // h  of the curved surface of the upper half of a sphere (W/m2)
-  Quantity faceIrradiance;         // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
+  Quantity faceIrradiance;             // H  of faces towards +x -x +y -y +z -z, a color for each (W/m2)
   Quantity lightVector;  // u  integral of L d over directions d, of brightness, towards more light (W/m2)
   Quantity directions;   // k  number of directions used
   // z  mean radiance of each of Options::zones or directionBins in turn (W/sr/m2). Multiplied by

@@ -56,10 +56,11 @@ struct Options {
   bool irradianceAtOrigin = false;   // -I  irradiance of sensors at the origins, facing along the directions
   bool irradianceAtSurface = false;  // -i  irradiance of the surface that is hit, instead of its radiance
 
+  std::optional<double> accuracy;  // -Sa  relative standard error of points and rays, not of contributions
+
   // Points
   std::optional<int> directions;      // -Sn  base directions at a point
   std::optional<int> mostDirections;  // -Sx  largest number of directions at a point
-  std::optional<double> accuracy;     // -Sa  relative standard error to be reached with more directions
   std::optional<int> zones;           // -Sz  zones of equal solid angle whose means are also computed
   // -Szb -Szn  bins of directions Dx Dy Dz, used instead of zones: their expression, count, parameters and
   // files. Borders are accurate to .1 degrees.

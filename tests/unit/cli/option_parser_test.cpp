@@ -112,7 +112,7 @@ TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
   EXPECT_EQ(why({"rtrace", "-h", "-features"}),
             "command line error at '-features': it must be the first option");
   EXPECT_EQ(why({"rtrace", "-oq", "s.oct"}),
-            "unrecognized output option 'q': the letters are odvVwWlLcpnNsmMrRxX~ and t, T for ray trees");
+            "unrecognized output option 'q': the letters are odveVwWlLcpnNsmMrRxX~ and t, T for ray trees");
 }
 
 TEST(ParseOptions, NumbersOutsideTheirRangeSayWhich) {

@@ -241,7 +241,8 @@ TEST(Defaults, OfSphereModeAreItsOwn) {
   EXPECT_EQ(sphere.ray.directJitter, 1);
   EXPECT_EQ(sphere.ray.directThreshold, 0);
   EXPECT_EQ(sphere.ray.specularThreshold, 0);
-  EXPECT_EQ(sphere.ray.ambientBounces, rays.ray.ambientBounces);
+  EXPECT_EQ(sphere.ray.ambientBounces, RayOptions::kAllBounces);
+  EXPECT_EQ(rays.ray.ambientBounces, 0);
   EXPECT_EQ(rays.ray.ambientDivisions, 1024);
   EXPECT_EQ(rays.ray.leastForPatches, 0);
 }

@@ -439,7 +439,8 @@ TEST(Estimator, LightVerticesTakeThePlaceOfPatches) {
 // directions are sent to the patch as they are for paths.
 TEST(Estimator, FindsSunlitPatchesWithoutBounces) {
   const SphereSetting room(
-      sceneOf(daylitRoom() + "void light glare 0 0 3 1e5 1e5 1e5\nglare source sun 0 0 4 0 -1 1 .53\n"));
+      sceneOf(daylitRoom() + "void light glare 0 0 3 1e5 1e5 1e5\nglare source sun 0 0 4 0 -1 1 .53\n"),
+      [](RayOptions& o) { o.ambientBounces = 0; });
   const auto means = [&](Weights weights) {
     SphereOptions options = room.options.sphere;
     options.baseDirections = 128;

@@ -263,7 +263,8 @@ TEST(StatedErrors, ContainThatOfTheCoarseSolution) {
 // What is seen through a window under an even sky is found exactly, whichever directions happen to hit it.
 // The stated error allows for what the directions may have missed.
 TEST(StatedErrors, OfAnEvenSkyThroughAWindowAreOfWhatMayBeMissed) {
-  const SphereSetting room(sceneOf(kRoomWithAWindow));  // without bounces the room is dark
+  // Without bounces the room is dark.
+  const SphereSetting room(sceneOf(kRoomWithAWindow), [](RayOptions& o) { o.ambientBounces = 0; });
   const V3d point(1.5, 1, 1.35);
   const double solidAngle = 4 * std::atan(.4 * .35 / std::sqrt(1 + .16 + .1225));
   const auto answers = answersOf(room, {&point, 1}, 512, 8);

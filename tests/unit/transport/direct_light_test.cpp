@@ -198,5 +198,21 @@ TEST(Direct, VisibleLampsTellNothingOfAHiddenSun) {
   EXPECT_NEAR(Traced(scene, o).value(V3d(0, 0, 1), kDown), exact, 1e-9 * exact);
 }
 
+// Beside a gather of 1024 rays, the shadow rays of its own surface are drawn 16 times. Nothing else sends
+// light.
+TEST(Direct, IsDrawnAgainForEachPartOfAGather) {
+  const std::string scene =
+      plastic("m", .5) + floor("m") + light(1) + "lamp polygon l\n0\n0\n12 -1 -1 .5 -1 1 .5 1 1 .5 1 -1 .5\n";
+  RayOptions o = unbiased(0);
+  o.sourceSubstructuring = 0;
+  const V3d origin(1, 0, .3);
+  const double once = Traced(scene, o).mean(origin, kDown, 2000).standardError();
+  o.ambientBounces = 1;
+  o.ambientDivisions = 1024;
+  EXPECT_NEAR(Traced(scene, o).mean(origin, kDown, 2000).standardError() / once, .25, .03);
+  o.ambientDivisions = 16;
+  EXPECT_NEAR(Traced(scene, o).mean(origin, kDown, 2000).standardError() / once, 1, .1);
+}
+
 }  // namespace
 }  // namespace rsphere::direct_light_test

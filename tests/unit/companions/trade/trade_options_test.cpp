@@ -48,7 +48,7 @@ TEST(Ladder, IsMadeOfOptions) {
 }
 
 TEST(Ladder, LeavesIndirectLightAloneWhereThereIsNone) {
-  for (const auto& words : ladder(parse({"scene", "points"})))
+  for (const auto& words : ladder(parse({"-ab", "0", "scene", "points"})))
     for (const std::string& word : words) EXPECT_TRUE(word != "-ad" && word != "-ab");
 }
 

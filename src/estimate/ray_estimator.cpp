@@ -1,0 +1,233 @@
+#include "estimate/ray_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "base/colorimetry.h"
+#include "estimate/tuning.h"
+#include "points/error_estimate.h"
+#include "targets/contrasts.h"
+#include "transport/tuning.h"
+
+namespace rsphere {
+namespace {
+
+constexpr size_t kSets = RayEstimator::kSets, kSolutions = RayEstimator::kSolutions;
+constexpr size_t kInHalf = kSets / 2;
+static_assert(kInHalf == kSolutions);  // sets k and k + kSolutions belong to different halves
+
+// All gathers of one ray so far. The sets of a half have equal numbers of rays.
+class Gathers {
+ public:
+  Gathers(bool share, const SpectralSampling* sampling) : share_(share), sampling_(sampling) {}
+
+  // A round sends gathers of equal size in all sets of a half.
+  void beginRound(size_t half) { halves_[half].rounds.emplace_back(); }
+  void add(size_t set, int rays, const TracedRay& ray) {
+    Half& half = halves_[set / kInHalf];
+    half.rounds.back().rays = rays;
+    half.rounds.back().values.push_back(ray.value);
+    half.sums[set % kInHalf] += ray.value * rays;
+    half.rays[set % kInHalf] += rays;
+    mirrored_ += ray.mirrored * rays;
+    ++traced_;
+  }
+  double raysOf(size_t half) const { return halves_[half].rays[0]; }  // of each set
+  uint64_t traced() const { return traced_; }
+
+  Radiance mean(size_t half) const { return meanOf(halves_[half].means()); }
+  Radiance mean() const { return (mean(0) + mean(1)) / 2; }
+  Radiance mirrored() const { return mirrored_ / (kInHalf * (raysOf(0) + raysOf(1))); }
+
+  // The variance of the mean of a half. The gathers of a round are independent, but for their solutions.
+  Variance variance(size_t half) const {
+    return withSolutions(ofGathers(halves_[half]), halves_[half].means());
+  }
+  // The variance of the mean of both halves.
+  Variance variance() const {
+    Variance both = ofGathers(halves_[0]);
+    both += ofGathers(halves_[1]);
+    std::array<Radiance, kInHalf> means = halves_[0].means();
+    const auto others = halves_[1].means();
+    for (size_t k = 0; k < kInHalf; ++k) means[k] = (means[k] + others[k]) / 2;
+    return withSolutions(both * (1. / 4), means);
+  }
+
+ private:
+  struct Round {
+    int rays = 0;  // of each gather
+    std::vector<Radiance> values;
+  };
+  struct Half {
+    std::vector<Round> rounds;
+    std::array<Radiance, kInHalf> sums;  // of values times rays, by set
+    std::array<double, kInHalf> rays{};
+
+    std::array<Radiance, kInHalf> means() const {
+      std::array<Radiance, kInHalf> of;
+      for (size_t k = 0; k < kInHalf; ++k) of[k] = sums[k] / rays[k];
+      return of;
+    }
+  };
+
+  static Radiance meanOf(std::span<const Radiance> values) {
+    Radiance sum;
+    for (const Radiance& value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+  // The variance of a single value, from the spread of all.
+  Variance spreadOf(std::span<const Radiance> values) const {
+    const Radiance mean = meanOf(values);
+    Variance sum;
+    for (const Radiance& value : values) sum += Variance::of(Irradiance((value - mean).color), sampling_);
+    return sum * (1. / static_cast<double>(values.size() - 1));
+  }
+  Variance ofGathers(const Half& half) const {
+    Variance sum;
+    for (const Round& round : half.rounds) {
+      const double weight = round.rays / (kInHalf * half.rays[0]);
+      sum += spreadOf(round.values) * (static_cast<double>(round.values.size()) * weight * weight);
+    }
+    return sum;
+  }
+  // means: of the gathers of each solution.
+  Variance withSolutions(const Variance& ofGathers, std::span<const Radiance> means) const {
+    if (!share_) return ofGathers;
+    const Variance ofMeans =
+        spreadOf(means) * (tuning::RaySets::kOfSolutions / static_cast<double>(means.size()));
+    return {combined(ofGathers.channels, ofMeans.channels, [](double x, double y) { return std::max(x, y); }),
+            std::max(ofGathers.brightness, ofMeans.brightness)};
+  }
+
+  bool share_;  // whether sets share solutions
+  const SpectralSampling* sampling_;
+  std::array<Half, 2> halves_;
+  Radiance mirrored_;  // times rays
+  uint64_t traced_ = 0;
+};
+
+// A small fraction of the average radiance in view of the scene's surfaces (W/sr/m2), or of the irradiance
+// that it causes.
+double usualFloor(const Transport& transport) {
+  RayOptions few = transport.prepared().options();  // a few paths are enough
+  few.ambientAccuracy = few.ambientSuperSamples = 0;
+  few.ambientDivisions = 1;
+  const Transport ofPaths(transport, few);
+  const SeenSources sources(ofPaths.prepared());
+  const double radiance =
+      tuning::RaySets::kDark * typicalRadiance({ofPaths.prepared(), ofPaths.caches()}, sources);
+  return transport.prepared().irradiance() == IrradianceAt::none ? radiance : std::numbers::pi * radiance;
+}
+
+}  // namespace
+
+RayEstimator::RayEstimator(const Transport& transport, const Options& options)
+    : transport_(transport), options_(options), target_(options.accuracy), floor_(options.floor) {
+  const PreparedScene& prepared = transport.prepared();
+  const RayOptions& o = prepared.options();
+  const int asked = o.ambientDivisions + o.ambientSuperSamples;
+  if (options.accuracy > 0) {
+    first_ = tuning::RaySets::kFirst;
+    most_ = tuning::RaySets::kMost / (options.accuracy * options.accuracy * kSets);
+    if (floor_ < 0) floor_ = usualFloor(transport);
+    return;
+  }
+  floor_ = 0;
+  first_ = std::max(1, asked / static_cast<int>(kSets));
+  if (prepared.irradiance() != IrradianceAt::point || o.ambientSuperSamples == 0) return;
+  // As without -oe, the gather of a sensor gets more rays where it is noisy.
+  target_ = o.ambientAccuracy / tuning::SensorNoise::kAccuracy;
+  most_ = (asked + tuning::SensorNoise::kMostAdded * o.ambientSuperSamples) / static_cast<double>(kSets);
+}
+
+// Rays do not reduce the noise of patches, which therefore has to be below the accuracy.
+double RayEstimator::raysForPatches(const RayOptions& options, double accuracy) {
+  constexpr double kUsualAccuracy = .01;  // at which -ad + -as suffice
+  const double finer = kUsualAccuracy / accuracy;
+  return (options.ambientDivisions + options.ambientSuperSamples) *
+         std::clamp(finer * finer, tuning::RaySets::kFewestForPatches, tuning::RaySets::kMostForPatches);
+}
+
+std::vector<PathTracer> RayEstimator::tracers() const {
+  TracingMode mode;
+  mode.interpolates = false;
+  std::vector<PathTracer> tracers;
+  for (; mode.solution < transport_.prepared().options().solutions; ++mode.solution)
+    tracers.push_back(transport_.pathTracer(mode));
+  return tracers;
+}
+
+RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, const V3d& origin,
+                                              const V3d& direction, double farthest, uint64_t seed,
+                                              PathRequest request,
+                                              const std::function<void()>& checkStop) const {
+  const SpectralSampling* const sampling = transport_.prepared().options().sampling;
+  Estimate answer;
+  Gathers all(transport_.caches().coarse != nullptr, sampling);
+  bool gathers = false;
+  // Adds a round of gathers to a half, so that each of its sets has this number of rays.
+  const auto addRound = [&](size_t half, double upTo) {
+    const double more = upTo - all.raysOf(half);  // of each set
+    const int most = gathers ? tuning::RaySets::kMostAtOnce : tuning::RaySets::kFirst;
+    const int times = std::max(tuning::RaySets::kLeastGathers, static_cast<int>(std::ceil(more / most)));
+    request.rays = std::max(1, static_cast<int>(more / times));
+    all.beginRound(half);
+    for (size_t k = half * kInHalf; k < (half + 1) * kInHalf; ++k) {
+      for (int i = 0; i < times; ++i) {
+        const TracedRay ray = tracers[k % tracers.size()].trace(
+            origin, direction, farthest, mixBits(seed ^ mixBits(1 + all.traced())), request);
+        if (all.traced() == 0) answer.ray = ray;
+        gathers = gathers || ray.gathers;
+        all.add(k, request.rays, ray);
+      }
+    }
+  };
+  const auto valueOf = [&](const Radiance& mean) {
+    return std::max(std::abs(photopicOf(mean.color, sampling)), floor_);
+  };
+  addRound(0, first_);
+  addRound(1, first_);
+  for (bool goesOn = target_ > 0; goesOn;) {
+    if (checkStop) checkStop();
+    std::array<double, 2> asked;
+    const auto ask = [&](size_t half, double rays) {
+      const double has = all.raysOf(half);
+      asked[half] = std::min({rays, has * tuning::RaySets::kGrowth, most_});
+      // Few rays more are not worth a round.
+      if (!(asked[half] > tuning::RaySets::kLeastGrowth * has)) asked[half] = has;
+      return asked[half] > has;
+    };
+    goesOn = false;
+    for (const size_t half : {0, 1}) {
+      const size_t other = 1 - half;
+      const double wanted = tuning::Stopping::kMargin * target_ * valueOf(all.mean(other));
+      const double excess = all.variance(other).brightness / (2 * wanted * wanted);
+      if (ask(half, all.raysOf(other) * excess)) goesOn = true;
+    }
+    if (!goesOn) {
+      const double wanted = target_ * valueOf(all.mean());
+      const double excess = all.variance().brightness / (wanted * wanted);
+      const bool reached = !(excess > 1);  // also if both are 0
+      answer.reached = reached || !(options_.accuracy > 0);
+      for (const size_t half : {0, 1})
+        if (!reached && ask(half, all.raysOf(half) * std::max(excess, 2 * tuning::RaySets::kLeastGrowth)))
+          goesOn = true;
+    }
+    for (const size_t half : {0, 1})
+      if (asked[half] > all.raysOf(half)) addRound(half, asked[half]);
+  }
+  const auto root = [](double v) { return std::sqrt(std::max(0., v)); };
+  const Variance variance = all.variance();
+  answer.ray.value = all.mean();
+  answer.ray.mirrored = all.mirrored();
+  answer.standardError = Radiance(variance.channels);
+  answer.standardError.color.transform(root);
+  answer.brightnessError = root(variance.brightness);
+  if (const double value = valueOf(answer.ray.value); value > 0)
+    answer.relativeError = answer.brightnessError / value;
+  return answer;
+}
+
+}  // namespace rsphere

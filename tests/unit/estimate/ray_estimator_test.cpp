@@ -1,0 +1,164 @@
+#include "estimate/ray_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/unit/transport/transport_fixture.h"
+
+namespace rsphere {
+namespace {
+
+// A furnished room of 4 x 4 x 3 with a luminaire; the table hides it from the second sensor.
+const std::string kRoomWithALamp =
+    "void plastic white 0 0 5 .6 .6 .6 0 0\nvoid light shine 0 0 3 30 30 30\n" +
+    roomOf("white", V3d(4, 4, 3)) +
+    "shine polygon lamp 0 0 12 1 1 2.9 1 1.4 2.9 2.2 1.4 2.9 2.2 1 2.9\n"
+    "white polygon table 0 0 12 .5 .5 .8 2.5 .5 .8 2.5 2 .8 .5 2 .8\n";
+
+// Sensors (-I): as on the command line, a ray comes down to each from a little above.
+const V3d kSensors[] = {V3d(2, 3, .9001), V3d(1.5, 1.2, .4001)};
+const V3d kDown(0, 0, -1);
+
+RayOptions raysOf(double ambientAccuracy, int solutions = static_cast<int>(RayEstimator::kSolutions)) {
+  RayOptions o = unbiased(3);
+  o.ambientAccuracy = ambientAccuracy;
+  o.ambientDivisions = 256;
+  o.sourceSubstructuring = .05;
+  o.weightLimit = 1e-4;
+  o.solutions = ambientAccuracy > 0 ? solutions : 1;
+  return o;
+}
+
+struct Repeats {
+  double off = 0, stated = 0;  // root mean squares, relative
+  double beyondFour = 0;       // fraction of the answers
+  double largestStated = 0, reached = 0;
+
+  double trueOverStated() const { return off / stated; }
+};
+
+// Repeats with different random numbers, also of the patches. With one sensor out of two unlit by the lamp,
+// errors are relative to each sensor's mean.
+Repeats repeat(const std::string& text, RayOptions options, const RayEstimator::Options& how,
+               uint64_t seeds) {
+  const Scene scene = sceneOf(text);
+  std::vector<std::vector<RayEstimator::Estimate>> all(std::size(kSensors));
+  for (uint64_t seed = 1; seed <= seeds; ++seed) {
+    options.rotation = seed;
+    const Transport transport(scene, options, IrradianceAt::point);
+    const RayEstimator estimator(transport, how);
+    auto tracers = estimator.tracers();
+    for (size_t i = 0; i < all.size(); ++i)
+      all[i].push_back(estimator.estimate(tracers, kSensors[i], kDown, 0, mixBits(seed)));
+  }
+  Repeats found;
+  double count = 0;
+  for (const auto& estimates : all) {
+    Sample values;
+    for (const auto& e : estimates) values.add(brightness(e.ray.value));
+    for (const auto& e : estimates) {
+      const double off = brightness(e.ray.value) / values.mean() - 1,
+                   error = e.brightnessError / values.mean();
+      found.off += off * off * static_cast<double>(seeds) / static_cast<double>(seeds - 1);
+      found.stated += error * error;
+      found.beyondFour += std::abs(off) > 4 * error;
+      found.reached += e.reached;
+      found.largestStated = std::max(found.largestStated, e.relativeError);
+      ++count;
+    }
+  }
+  found.off = std::sqrt(found.off / count);
+  found.stated = std::sqrt(found.stated / count);
+  found.beyondFour /= count;
+  found.reached /= count;
+  return found;
+}
+
+bool areHonest(double trueOverStated) { return trueOverStated > .8 && trueOverStated < 1.25; }
+
+TEST(RayEstimator, StatesTheSpreadOfItsAnswers) {
+  for (const std::string& room : {kRoomWithALamp, kRoomWithAWindow}) {
+    for (const double accuracy : {0., .1}) {
+      RayOptions options = raysOf(accuracy);
+      options.ambientDivisions = 1024;
+      const Repeats found = repeat(room, options, {}, 60);
+      EXPECT_TRUE(areHonest(found.trueOverStated())) << found.trueOverStated() << " with -aa " << accuracy;
+      EXPECT_LE(found.beyondFour, .02);
+      EXPECT_FALSE(areHonest(1.6 * found.trueOverStated())) << "an error that is stated 1.6 times too small";
+    }
+  }
+}
+
+// The spoiled twin: if all sets use one solution, the noise of its patches does not show in their spread. So
+// that it is the larger part of the noise, a patch gets few rays, and the gather many.
+TEST(RayEstimator, NoiseOfPatchesIsInItsErrors) {
+  RayOptions own = raysOf(.1), common = raysOf(.1, 1);
+  const RayEstimator::Options accurate{.accuracy = .01};
+  const Repeats several = repeat(kRoomWithALamp, own, accurate, 30),
+                one = repeat(kRoomWithALamp, common, accurate, 30);
+  EXPECT_TRUE(areHonest(several.trueOverStated())) << several.trueOverStated();
+  EXPECT_GT(one.trueOverStated(), 1.25);
+}
+
+TEST(RayEstimator, ReachesTheAccuracy) {
+  for (const std::string& room : {kRoomWithALamp, kRoomWithAWindow}) {
+    const Repeats found = repeat(room, raysOf(0), {.accuracy = .02}, 100);
+    EXPECT_LT(found.off, 1.1 * .02);
+    EXPECT_GT(found.off, .3 * .02) << "it takes more rays than the accuracy asks for";
+    EXPECT_TRUE(areHonest(found.trueOverStated())) << found.trueOverStated();
+    EXPECT_EQ(found.reached, 1);
+    EXPECT_LE(found.largestStated, .02);
+  }
+}
+
+// A sensor in a closed box of the scene would take as many rays as are allowed.
+TEST(RayEstimator, ADarkSensorNeedsOnlyTheFloor) {
+  const Repeats to = repeat(kRoomWithALamp, raysOf(0), {.accuracy = .01, .floor = 1e6}, 2);
+  EXPECT_GT(to.stated, .012) << "one round of sets";
+  EXPECT_EQ(to.reached, 1);
+}
+
+TEST(RayEstimator, StoppingLeavesNoBias) {
+  const Scene scene = sceneOf(kRoomWithAWindow);
+  Sample stopped, plain;
+  const Transport transport(scene, raysOf(0), IrradianceAt::point);
+  const RayEstimator estimator(transport, {.accuracy = .2, .floor = 0});
+  auto tracers = estimator.tracers();
+  PathTracer tracer = transport.pathTracer();
+  for (uint64_t seed = 1; seed <= 1500; ++seed) {
+    stopped.add(brightness(estimator.estimate(tracers, kSensors[0], kDown, 0, mixBits(seed)).ray.value));
+    plain.add(brightness(tracer.trace(kSensors[0], kDown, 0, mixBits(seed)).value));
+  }
+  const double error = std::hypot(stopped.standardError(), plain.standardError());
+  EXPECT_LT(std::abs(stopped.mean() - plain.mean()), kMostSigmas * error);
+  EXPECT_LT(kMostSigmas * error, .03 * plain.mean()) << "too few seeds to see a bias of 3%";
+}
+
+TEST(RayEstimator, AnswersDependOnTheSeedAlone) {
+  const Scene scene = sceneOf(kRoomWithAWindow);
+  const Transport transport(scene, raysOf(.1), IrradianceAt::point);
+  const RayEstimator estimator(transport, {.accuracy = .05});
+  auto used = estimator.tracers(), fresh = estimator.tracers();
+  estimator.estimate(used, kSensors[1], kDown, 0, 7);
+  const auto a = estimator.estimate(used, kSensors[0], kDown, 0, 3),
+             b = estimator.estimate(fresh, kSensors[0], kDown, 0, 3);
+  EXPECT_EQ(a.ray.value.color, b.ray.value.color);
+  EXPECT_EQ(a.standardError.color, b.standardError.color);
+}
+
+// Rays of which nothing is random: all sets are equal.
+TEST(RayEstimator, NoErrorWhereNothingIsRandom) {
+  const Scene scene = sceneOf("void glow bright 0 0 4 2 2 2 0\nbright source sky 0 0 4 0 0 1 360\n");
+  const Transport transport(scene, raysOf(0), IrradianceAt::none);
+  const RayEstimator estimator(transport, {.accuracy = .01});
+  auto tracers = estimator.tracers();
+  const auto found = estimator.estimate(tracers, V3d(0, 0, 0), kDown, 0, 3);
+  EXPECT_EQ(found.ray.value.color, Color(2, 2, 2));
+  EXPECT_EQ(found.brightnessError, 0);
+}
+
+}  // namespace
+}  // namespace rsphere
