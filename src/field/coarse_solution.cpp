@@ -28,7 +28,8 @@ static_assert(kMostComputed >= 3);
 // more: the light of the last two bounces that are known.
 double geometricRest(double before, double more, int further) {
   constexpr double kLargest = .99;  // even in a closed room of the whitest paint
-  if (!(before > 0) || !(more > 0)) return 0;
+  // Where slopes are noisy, differences of either sign occur, which must not add up to more or less light.
+  if (!(more * before > 0)) return 0;
   const double ratio = std::min(more / before, kLargest);
   return more * ratio * (1 - std::pow(ratio, further)) / (1 - ratio);
 }
@@ -178,21 +179,18 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
   const double near = first ? tuning::CoarseSolution::kNearAtFirst : tuning::CoarseSolution::kNear;
   const double share =
       first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
-  const double fewer = first ? 1 : tuning::CoarseSolution::kFewerByLamps;
+  const double fewer = first || options.solutions > 1 ? 1 : tuning::CoarseSolution::kFewerByLamps;
   if (!daylit)
     return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
             tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
-            tuning::CoarseSolution::kCoarserByLamps * far,
-            near,
-            fewer * tuning::CoarseSolution::kRays * rays,
-            first ? 1. : 0.,
-            1,
+            tuning::CoarseSolution::kCoarserByLamps * far, near, fewer * tuning::CoarseSolution::kRays * rays,
+            first ? 1. : 0., 1,
             first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
                         tuning::CoarseSolution::kLeastRays
                   : fewer * tuning::CoarseSolution::kLeastRays,
-            rays,
-            share,
-            0};
+            rays, share,
+            // Several solutions have few rays each. Noisy slopes can make light grow from bounce to bounce.
+            options.solutions > 1 ? tuning::CoarseSolution::kFewestForSlopes : 0};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
           far,

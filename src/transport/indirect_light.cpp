@@ -79,6 +79,15 @@ Aims aimsAt(const RayEnd& end, const PathSettings& settings, const PathState& st
   return aims;
 }
 
+// The weight of a diffuse reflection where light is interpolated. It is one half, as in rtrace, unless
+// nothing limits the bounces: there it is at least the reflectance. Russian roulette would otherwise end
+// paths sooner than their light falls, and their variance would grow from bounce to bounce without a bound.
+Coefficient weightOf(const RayOptions& options, const PathContext& ray, const Coefficient& reflectance) {
+  if (ray.ambientLevel == 0 || options.ambientBounces < RayOptions::kAllBounces)
+    return Coefficient(kMeanReflectance);
+  return Coefficient(std::clamp(maxChannel(reflectance), kMeanReflectance, 1.));
+}
+
 // A place that sends rays over its hemisphere.
 struct Gather {
   const PreparedScene& prepared;
@@ -93,8 +102,9 @@ struct Gather {
   // light; each has the weight of one ray among `weighedAs`.
   void send(int rays, int weighedAs, double share, FunctionRef<void(const Radiance& part)> found) const {
     const GatherDirections directions(aims, side.point, side.normal, side.trueNormal, rays);
-    const Coefficient weight =
-        settings.caches.field ? Coefficient(kMeanReflectance) : side.coefficient / weighedAs;
+    const Coefficient weight = settings.caches.field
+                                   ? weightOf(prepared.options(), end.context, side.coefficient)
+                                   : side.coefficient / weighedAs;
     sendOverHemisphere(prepared, directions, state, end, side.point, side.kind,
                        DirectionSet(rays, state.random), side.coefficient * share, weight,
                        [&](const NextRay& next) {
@@ -312,7 +322,8 @@ void IndirectLight::link(const RayEnd& end, const DiffuseSide& at) {
   if (isLast) return;
   const GatherDirections directions(settings_.aims, side.point, side.normal, side.trueNormal, 1);
   sendOverHemisphere(t_, directions, state_, end, side.point, side.kind, DirectionSet(1, state_.random),
-                     side.coefficient, Coefficient(kMeanReflectance), [&](const NextRay& next) {
+                     side.coefficient, weightOf(t_.options(), end.context, side.coefficient),
+                     [&](const NextRay& next) {
                        const Radiance found = follower_.follow(next.query, next.context).value;
                        links.addLight(level, found * next.context.contribution);
                      });

@@ -132,6 +132,29 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   EXPECT_LE(static_cast<size_t>(rays.linked), solution.patches()) << "a patch is linked once";
 }
 
+// The light of bounces beyond those that are computed falls as before.
+TEST(CoarseSolution, LightOfManyBouncesIsASeriesToo) {
+  constexpr int kBounces = 40;
+  const Traced box(kBox);
+  FurnaceRays rays(box.prepared().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
+  RayOptions options = optionsOf(kBounces);
+  options.ambientValue = Radiance(0);
+  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), 1);
+  rays.solve(solution);
+  Random random(2);
+  int found = 0;
+  for (int i = 0; i < 12; ++i) {
+    const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
+    const PatchPlace on = solution.find(rays.placeAlong(from, randomDirection(random)), rays);
+    if (!on.patch) continue;
+    ++found;
+    const double all = 1 / (1 - kReflectance);
+    EXPECT_NEAR(solution.light(on, kBounces, rays).x, all * (1 - std::pow(kReflectance, kBounces)), 1e-4);
+    EXPECT_LT(solution.light(on, 12, rays).x, all * (1 - std::pow(kReflectance, 12)) + 1e-4);
+  }
+  EXPECT_GE(found, 4);
+}
+
 // The rays that the patch of a place on the floor of the box has, for a room of this size.
 int raysOfPatch(const Traced& box, const RayOptions& options, double room, double distance = 0,
                 double covered = 1) {
