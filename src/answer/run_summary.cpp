@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-
 namespace rsphere {
 namespace {
 
@@ -26,6 +25,7 @@ bool isFarAway(const V3d& point, const Box3d& scene) {
   return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
 }
 
+// What the records of a run are.
 std::string_view placesOf(const AnswerOptions& options) {
   if (options.sphereMode) return options.sphere.glare.wanted ? "eyes" : "points";
   return options.irradiance == IrradianceAt::point ? "sensors" : "rays";

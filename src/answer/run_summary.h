@@ -21,7 +21,6 @@ class RunSummary {
   void add(uint64_t record, const PointAnswer& answer, const PreparedScene& prepared);
   void add(uint64_t record, const GlareAnswer& answer, const PreparedScene& prepared);
   void addSensor(uint64_t record, const V3d& point, const PreparedScene& prepared);
-
   // Adds the error of a ray.
   void add(uint64_t record, const RayEstimator::Estimate& estimate);
 

@@ -195,21 +195,6 @@ Color Color::part(size_t contributor) const {
   return {valueOf(3 * contributor), valueOf(3 * contributor + 1), valueOf(3 * contributor + 2)};
 }
 
-Color Color::dividedAs(const Color& other) const {
-  Bands divided = other.bands_;
-  V3d sum(0, 0, 0);
-  const std::span<double> values = divided.values();
-  for (size_t i = 0; i < values.size(); ++i) sum[static_cast<int>(i % 3)] += values[i];
-  for (size_t i = 0; i < values.size(); ++i) {
-    const auto c = static_cast<int>(i % 3);
-    values[i] = sum[c] > 0 ? values[i] / sum[c] * (*this)[c] : 0;
-  }
-  // If the other color has no parts in a channel, all of the channel goes to the first contributor.
-  for (int c = 0; c < 3; ++c)
-    if (!(sum[c] > 0)) values[static_cast<size_t>(c)] = (*this)[c];
-  return Color(rgb(), std::move(divided));
-}
-
 std::pair<double, double> Color::extremesOfBands() const {
   if (bands_.scheme().ofContributors) return {std::min({x, y, z}), std::max({x, y, z})};
   const auto [least, most] = std::ranges::minmax(bands_.values());

@@ -97,8 +97,6 @@ class Color {
   static Color ofContributor(const V3d& rgb, size_t contributor, const BandScheme& parts);
   // The part due to a contributor, without bands; black if the color has no parts.
   Color part(size_t contributor) const;
-  // This color, divided into parts in the proportions of another color. REQUIRES that the other has parts.
-  Color dividedAs(const Color& other) const;
   // The smallest and the largest value of its bands; of its channels if it has parts. REQUIRES bands.
   std::pair<double, double> extremesOfBands() const;
   // Prefetches the bands into the processor's cache for later use.

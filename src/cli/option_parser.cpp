@@ -380,7 +380,8 @@ void checkGlare(const Options& options) {
   refuse(!options.picture.empty(), "-Si", "pictures show the light at points, not the view of an eye");
 }
 
-void checkErrorsOfRays(const Options& options) {
+// Checks -Sa, and what asks for standard errors of rays.
+void checkAccuracy(const Options& options) {
   if (options.sphere.accuracy >= 1)
     commandLineError("-Sa", "an error of 1 is as large as the mean" + percent(1));
   if ((options.estimatesRays() && !options.treeOutputs.empty()) ||
@@ -388,7 +389,7 @@ void checkErrorsOfRays(const Options& options) {
     commandLineError("-ot", "the rays of a tree have no standard errors: not with -Sa or -oe");
 }
 
-// The rays of patches where rays have standard errors.
+// Sets how many solutions there are, and how many rays patches have, where rays have standard errors.
 void setSolutions(RayOptions& ray, double accuracy) {
   if (!(ray.ambientAccuracy > 0)) return;
   ray.solutions = static_cast<int>(RayEstimator::kSolutions);
@@ -396,7 +397,7 @@ void setSolutions(RayOptions& ray, double accuracy) {
 }
 
 void checkTogether(Options& options, bool mostGiven) {
-  checkErrorsOfRays(options);
+  checkAccuracy(options);
   if (options.estimatesRays()) setSolutions(options.ray, options.sphere.accuracy);
   checkParts(options);
   checkSensors(options);
@@ -568,7 +569,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   }
   Given given = takeOptions(words, companion, companion.sphereMode && program != "rtrace");
   options = modeDefaults(given.sphereMode);
-  if (!given.sphereMode && given.asksForErrors()) stateErrors(options.ray, given.has("-Sa"));
+  if (!given.sphereMode && given.asksForErrors()) setErrorDefaults(options.ray, given.has("-Sa"));
   if (companion.defaults) companion.defaults(options);
   options.program = program;
   options.request = given.request;

@@ -495,8 +495,9 @@ int arity(const OptionEntry& entry) {
 }
 
 // The direct light that thresholds leave out, and the light of highlights that are not sampled, would be
-// missing in the stated errors.
-void stateErrors(RayOptions& ray, bool reachAccuracy) {
+// missing in the stated errors. With -ds .2, long luminaires need 16 times the rays for the same error
+// (tests/bench/rtrace/runs/2026-11-28-ray-errors.txt).
+void setErrorDefaults(RayOptions& ray, bool reachAccuracy) {
   const RayOptions ofPoints = modeDefaults(true).ray;
   ray.directThreshold = ofPoints.directThreshold;
   ray.directJitter = ofPoints.directJitter;

@@ -127,7 +127,7 @@ Options modeDefaults(bool sphereMode);
 
 // Sets the defaults of rays whose standard errors are computed: nothing is left out but bounces beyond -ab.
 // reachAccuracy: these are not left out, either (-Sa).
-void stateErrors(RayOptions& ray, bool reachAccuracy);
+void setErrorDefaults(RayOptions& ray, bool reachAccuracy);
 
 // The defaults for the rays of pictures (-Si).
 RayOptions pictureDefaults();

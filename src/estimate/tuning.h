@@ -25,7 +25,7 @@ struct Stopping {
   static constexpr size_t kMostRatio = 2;
 };
 
-// The sets of a ray (ray_estimator.cpp).
+// The sets of a ray (ray_estimator.cpp). Measured: tests/bench/rtrace/runs/2026-11-28-ray-errors.txt.
 struct RaySets {
   // Rays of a set's gather in the first round of -Sa.
   static constexpr int kFirst = 32;

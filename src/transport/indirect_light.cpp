@@ -283,26 +283,24 @@ int IndirectLight::gather(const RayEnd& end, const DiffuseSide& side, Radiance& 
   const int rays = raysOf(end.context, side.coefficient), level = end.context.ambientLevel;
   if (level == 0) state_.gathers = true;
   const Gather from{t_, settings_, aimsAt(end, settings_, state_), state_, follower_, end, side};
-  if (mayAddRays(from, rays)) {
-    gatherAccurately(from, rays, value);
-    return rays;
-  }
   const auto send = [&](int count, int weighedAs, double share) {
     from.send(count, weighedAs, share, [&](const Radiance& part) { value += part; });
-    return rays;
   };
   const int times = level <= 1 ? firstRays() : 1;
-  if (times == 1) return send(rays, rays, 1);
-  if (level == 1) {
+  if (mayAddRays(from, rays)) {
+    gatherAccurately(from, rays, value);
+  } else if (times == 1) {
+    send(rays, rays, 1);
+  } else if (level == 1) {
     if (!looksOnly_) send(rays, rays, times);
-    return rays;
+  } else {
+    // Sent separately, so that the rays that continue are as well stratified as without the additional rays.
+    looksOnly_ = false;
+    send(rays, rays, 1. / times);
+    looksOnly_ = true;
+    send(rays * (times - 1), rays, 1 - 1. / times);
+    looksOnly_ = false;
   }
-  // Sent separately, so that the rays that continue are as well stratified as without the additional rays.
-  looksOnly_ = false;
-  send(rays, rays, 1. / times);
-  looksOnly_ = true;
-  send(rays * (times - 1), rays, 1 - 1. / times);
-  looksOnly_ = false;
   return rays;
 }
 

@@ -138,13 +138,17 @@ template <ScattersLight S>
     return lobesCoefficient(t_, scattering, sample);
   };
   const PartOfLobe part(partOfLobe);
+  const auto draw = [&](Radiance& to) {
+    if (chosen)
+      direct.addOfChosen({end, point}, coefficient, scattering.front(), to);
+    else
+      direct.add({end, point, known}, coefficient, scattering.front(), shares ? &part : nullptr, to);
+  };
+  if (draws == 1) return draw(value);
   Radiance sum;
   for (int i = 0; i < draws; ++i) {
     Radiance drawn = value / draws;  // the light so far, with which -dt compares
-    if (chosen)
-      direct.addOfChosen({end, point}, coefficient, scattering.front(), drawn);
-    else
-      direct.add({end, point, known}, coefficient, scattering.front(), shares ? &part : nullptr, drawn);
+    draw(drawn);
     sum += drawn;
   }
   value = sum;

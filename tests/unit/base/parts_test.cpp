@@ -101,12 +101,5 @@ TEST(Parts, CopiesAreIndependentAndFunctionsSeeAllParts) {
   EXPECT_FALSE(sum == Color(sum.rgb()));
 }
 
-TEST(Parts, AreDividedInTheProportionsOfOthers) {
-  const Color other = partOf(0, V3d(1, 0, 3)) + partOf(2, V3d(3, 0, 1));
-  const Color divided = Color(8, 5, 4).dividedAs(other);
-  EXPECT_EQ(divided.part(0), Color(2, 5, 3));
-  EXPECT_EQ(divided.part(2), Color(6, 0, 1));
-}
-
 }  // namespace
 }  // namespace rsphere
