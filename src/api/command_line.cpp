@@ -112,7 +112,6 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
   if (records == Records::contributions) {
     limitToContributions(parsed.ray);
-    refuse(parsed.sphere.accuracy > 0, "-Sa", "the errors of contributions fall with the number of samples");
     refuse(parsed.color.space != ColorSpace::rgb && parsed.color.space != ColorSpace::spectrum, "-p",
            "contributions are red, green and blue, or bands (-cs)");
   }

@@ -67,31 +67,45 @@ RayContributions::RayContributions(const Transport& transport, const AnswerOptio
       samples_(samples) {
   for (PathTracer& tracer : rayTracers(transport, options))
     tracers_.emplace_back(std::move(tracer), tracked_);
+  if (options.sphere.accuracy > 0)
+    estimator_.emplace(transport,
+                       RayEstimator::Options{options.sphere.accuracy, options.sphere.accuracyFloor}, what);
 }
 
-void RayContributions::answer(const Record& record, unsigned worker, std::string& bytes) {
-  std::vector<double> sums(numbers()), squares(samples_ > 1 ? numbers() : 0);
-  const double n = samples_;
+void RayContributions::answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
+                              const std::function<void()>& checkStop) {
+  std::vector<double> sums(numbers()), errors(hasErrors() ? numbers() : 0);
   if (!record.bogus) {
     const InputRay in = inputRay(record.numbers.data(), options_.irradiance, samePlace_);
     const double farthest = options_.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options_);
-    for (int sample = 0; sample < samples_; ++sample) {
-      const uint64_t own = sample == 0 ? seed : mixBits(seed + static_cast<uint64_t>(sample));
-      const ContributionList& list = tracers_[worker].trace(in.origin, in.direction, farthest, own);
-      for (size_t i = 0; i < list.columns().size(); ++i)
-        for (size_t c = 0; c < components_; ++c) {
-          const double value = list.values()[i * components_ + c];
-          const size_t at = list.columns()[i] * components_ + c;
-          sums[at] += value;
-          if (samples_ > 1) squares[at] += value * value;
+    const auto at = [&](const ContributionList& list, size_t i) {
+      return list.columns()[i / components_] * components_ + i % components_;
+    };
+    if (estimator_) {
+      const auto estimate =
+          estimator_->estimate(tracers_[worker], in.origin, in.direction, farthest, seed, checkStop);
+      summary.add(record.index, estimate.sum);
+      for (size_t i = 0; i < estimate.variances.size(); ++i) {
+        sums[at(estimate.means, i)] = estimate.means.values()[i];
+        errors[at(estimate.means, i)] = std::sqrt(estimate.variances[i]);
+      }
+    } else {
+      const double n = samples_;
+      for (int sample = 0; sample < samples_; ++sample) {
+        const uint64_t own = sample == 0 ? seed : mixBits(seed + static_cast<uint64_t>(sample));
+        const ContributionList& list = tracers_[worker].trace(in.origin, in.direction, farthest, own);
+        for (size_t i = 0; i < list.values().size(); ++i) {
+          sums[at(list, i)] += list.values()[i];
+          if (samples_ > 1) errors[at(list, i)] += list.values()[i] * list.values()[i];
         }
+      }
+      for (double& sum : sums) sum /= n;
+      for (size_t i = 0; i < errors.size(); ++i)
+        errors[i] = std::sqrt(std::max(0., errors[i] / n - sums[i] * sums[i]) / (n - 1));
     }
   }
-  for (double& sum : sums) sum /= n;
-  for (size_t i = 0; i < squares.size(); ++i)
-    squares[i] = std::sqrt(std::max(0., squares[i] / n - sums[i] * sums[i]) / (n - 1));
-  for (const std::vector<double>* all : {&sums, &squares})
+  for (const std::vector<double>* all : {&sums, &errors})
     bytes.append(reinterpret_cast<const char*>(all->data()), all->size() * sizeof(double));
 }
 

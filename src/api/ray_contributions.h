@@ -1,9 +1,13 @@
 #pragma once
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "answer/batch.h"
+#include "answer/run_summary.h"
 #include "contrib/tracked.h"
+#include "estimate/contribution_estimator.h"
 #include "rsphere/options.h"
 #include "transport/transport.h"
 
@@ -13,7 +17,8 @@ namespace rsphere::v1 {
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
 // Answers rays with contributions, as doubles: for each value of each column the mean over the samples and,
-// with more than one sample, its standard error. Several threads of -n may call answer() at a time.
+// with more than one sample or an accuracy (-Sa), its standard error. Several threads of -n may call answer()
+// at a time.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.
@@ -22,7 +27,11 @@ class RayContributions {
   RayContributions(const RayContributions&) = delete;
   RayContributions& operator=(const RayContributions&) = delete;
 
-  void answer(const Record& record, unsigned worker, std::string& bytes);
+  // summary: gets the error of the sum of the contributions, with an accuracy. checkStop: called while a ray
+  // with an accuracy is computed.
+  void answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
+              const std::function<void()>& checkStop = {});
+  bool hasErrors() const { return samples_ > 1 || estimator_; }
   // Number of values in the means of a record.
   size_t numbers() const { return static_cast<size_t>(tracked_.columns()) * components_; }
 
@@ -32,6 +41,7 @@ class RayContributions {
   const Tracked tracked_;
   const size_t components_;
   const int samples_;
+  std::optional<const ContributionEstimator> estimator_;  // with an accuracy; samples_ is then not used
   std::vector<ContributionTracer> tracers_;
 };
 

@@ -152,7 +152,9 @@ struct Answerer {
                           how.coefficients ? Contributed::coefficients : Contributed::values, how.samples,
                           warn);
     const AnswerRecord answerRay = [this](const Record& record, unsigned worker, std::string& bytes) {
-      contributions->answer(record, worker, bytes);
+      contributions->answer(record, worker, bytes, *summary, [this] {
+        if (stop) throw Stopped();
+      });
     };
     answer = withSensors(answerRay, options, scene->transport.prepared(), *summary);
   }
@@ -584,7 +586,7 @@ Contributions Scene::Implementation::contributions(std::span<const double> numbe
     const size_t columns = answerer.contributions->numbers();
     result.size = numbers.size() / static_cast<size_t>(given.options.numbersPerRecord());
     std::vector<Column> all{{'v', &result.value}};
-    if (options.samples > 1) all.push_back({'e', &result.standardError});
+    if (answerer.contributions->hasErrors()) all.push_back({'e', &result.standardError});
     for (Column& column : all) {
       column.quantity->columns = columns;
       column.quantity->numbers.resize(result.size * columns);

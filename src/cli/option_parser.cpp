@@ -465,7 +465,8 @@ struct Given {
   // Whether standard errors or an accuracy are requested.
   bool asksForErrors() const {
     return std::any_of(uses.begin(), uses.end(), [](const Use& use) {
-      return use.entry->name == "-Sa" || (use.entry->name == "-o" && use.rest.find('e') != std::string::npos);
+      const std::string_view name = use.entry->name;
+      return name == "-Sa" || name == "-oe" || (name == "-o" && use.rest.find('e') != std::string::npos);
     });
   }
   bool has(std::string_view name) const {
@@ -569,8 +570,8 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   }
   Given given = takeOptions(words, companion, companion.sphereMode && program != "rtrace");
   options = modeDefaults(given.sphereMode);
-  if (!given.sphereMode && given.asksForErrors()) setErrorDefaults(options.ray, given.has("-Sa"));
   if (companion.defaults) companion.defaults(options);
+  if (!given.sphereMode && given.asksForErrors()) setErrorDefaults(options.ray, given.has("-Sa"));
   options.program = program;
   options.request = given.request;
   options.words.assign(words.before().begin(), words.before().end());

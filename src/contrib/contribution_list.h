@@ -21,10 +21,12 @@ class ContributionList {
   // components() values for each element of columns().
   std::span<const double> values() const { return values_; }
 
+  // Its position in columns(). A new column is added, with values of 0.
+  size_t positionOf(uint32_t column);
+
   void clear();
 
  private:
-  size_t positionOf(uint32_t column);
   void grow();
 
   size_t components_;

@@ -86,13 +86,13 @@ void Tracked::add(const RayEnd& end, const RayResult& result, BinScratch& scratc
 }
 
 const ContributionList& ContributionTracer::trace(const V3d& origin, const V3d& direction, double farthest,
-                                                  uint64_t seed) {
+                                                  uint64_t seed, int rays) {
   list_.clear();
   const RayObserver observer = [this](const RayEnd& end, const RayResult& result) {
     tracked_.add(end, result, scratch_, list_);
   };
-  const PathRequest request{.observer = &observer, .shadows = ShownShadows::thatArrive};
-  radiance_ = tracer_.trace(origin, direction, farthest, seed, request).value;
+  const PathRequest request{.observer = &observer, .shadows = ShownShadows::thatArrive, .rays = rays};
+  ray_ = tracer_.trace(origin, direction, farthest, seed, request);
   return list_;
 }
 

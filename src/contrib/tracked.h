@@ -73,20 +73,22 @@ class ContributionTracer {
   ContributionTracer(PathTracer tracer, const Tracked& tracked)
       : tracer_(std::move(tracer)), tracked_(tracked), list_(tracked.components()) {}
 
-  // The contributions to a primary ray, valid until the next call. Parameters: see PathTracer::trace().
-  const ContributionList& trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed);
+  // The contributions to a primary ray, valid until the next call. Parameters: see PathTracer::trace(); rays:
+  // PathRequest::rays.
+  const ContributionList& trace(const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
+                                int rays = 0);
 
   int components() const { return tracked_.components(); }
 
-  // The radiance along that ray.
-  const Radiance& radiance() const { return radiance_; }
+  // That ray.
+  const TracedRay& ray() const { return ray_; }
 
  private:
   PathTracer tracer_;
   const Tracked& tracked_;
   BinScratch scratch_;
   ContributionList list_;
-  Radiance radiance_;
+  TracedRay ray_;
 };
 
 }  // namespace rsphere

@@ -163,6 +163,15 @@ RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, 
                                               const V3d& direction, double farthest, uint64_t seed,
                                               PathRequest request,
                                               const std::function<void()>& checkStop) const {
+  const auto gather = [&](size_t set, int rays, uint64_t ownSeed) {
+    request.rays = rays;
+    return tracers[set % tracers.size()].trace(origin, direction, farthest, ownSeed, request);
+  };
+  return estimate(gather, seed, checkStop);
+}
+
+RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t seed,
+                                              const std::function<void()>& checkStop) const {
   const SpectralSampling* const sampling = transport_.prepared().options().sampling;
   Estimate answer;
   Gathers all(transport_.caches().coarse != nullptr, sampling);
@@ -172,15 +181,14 @@ RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, 
     const double more = upTo - all.raysOf(half);  // of each set
     const int most = gathers ? tuning::RaySets::kMostAtOnce : tuning::RaySets::kFirst;
     const int times = std::max(tuning::RaySets::kLeastGathers, static_cast<int>(std::ceil(more / most)));
-    request.rays = std::max(1, static_cast<int>(more / times));
+    const int rays = std::max(1, static_cast<int>(more / times));
     all.beginRound(half);
     for (size_t k = half * kInHalf; k < (half + 1) * kInHalf; ++k) {
       for (int i = 0; i < times; ++i) {
-        const TracedRay ray = tracers[k % tracers.size()].trace(
-            origin, direction, farthest, mixBits(seed ^ mixBits(1 + all.traced())), request);
+        const TracedRay ray = gather(k, rays, mixBits(seed ^ mixBits(1 + all.traced())));
         if (all.traced() == 0) answer.ray = ray;
         gathers = gathers || ray.gathers;
-        all.add(k, request.rays, ray);
+        all.add(k, rays, ray);
       }
     }
   };

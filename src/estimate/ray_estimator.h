@@ -19,6 +19,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "transport/transport.h"
 
 namespace rsphere {
@@ -56,6 +57,13 @@ class RayEstimator {
   Estimate estimate(std::vector<PathTracer>& tracers, const V3d& origin, const V3d& direction,
                     double farthest, uint64_t seed, PathRequest request = {},
                     const std::function<void()>& checkStop = {}) const;
+
+  // Traces the ray once, for a set (below kSets), with this number of rays in the gather of its first diffuse
+  // surface and a seed of its own. The sets of a half, those below kSets / 2 or the others, have as many rays
+  // each.
+  using Gather = FunctionRef<TracedRay(size_t set, int rays, uint64_t seed)>;
+  // The same for another value of the ray than its radiance: that of TracedRay::value, as `gather` sets it.
+  Estimate estimate(const Gather& gather, uint64_t seed, const std::function<void()>& checkStop) const;
 
  private:
   const Transport& transport_;

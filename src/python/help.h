@@ -95,8 +95,9 @@ of: modifiers: light sources, the sky, goals or any other surfaces.
 bins: None, or a number of zones of equal solid angle in which the directions lie of rays that meet a modifier
 (zone_middles()), or a dict: {"expression": "rbin", "count": "Nrbins", "parameters": "MF=4", "files":
 ["reinhartb.cal"]}, as -b, -bn, -p and -f of rcontrib.
-samples: times that each ray is traced. coefficients: factors on the radiance of the modifiers instead of
-values. Returns an object: value (n, of, bins, 3): radiance (W/sr/m2), or irradiance (W/m2) with
+samples: times that each ray is traced. accuracy: instead, as many as the relative standard error of the sum
+over all modifiers and bins takes, with all bounces. coefficients: factors on the radiance of the modifiers
+instead of values. Returns an object: value (n, of, bins, 3): radiance (W/sr/m2), or irradiance (W/m2) with
 irradiance_at_origin (-I); standard_error of the same shape, from the spread of the samples; modifiers.
 Defaults are those of rcontrib, without interpolation.
 )";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -68,6 +69,9 @@ constexpr OptionEntry kContributionOptions[] = {
     {{"-o", "spec", "output file", Group::companion,
       +[](Options& o) -> std::string& { return own(o).next.output; }},
      {.line = noLine}},
+    {{"-oe", "spec", "output file of standard errors", Group::companion,
+      +[](Options& o) -> std::string& { return own(o).next.errors; }},
+     {.line = noLine}},
     {{"-fo", "", "overwrite files|keep files", Group::companion, of<&ContributionOptions::overwrites>}},
     {{"-r", "", "complete existing files|start anew", Group::companion, of<&ContributionOptions::recovers>}},
 };
@@ -82,7 +86,9 @@ constexpr std::string_view kFeatures[] = {
 
 // rcontrib has no options of sphere mode, of ray trees, or of the contents of records.
 bool takes(const OptionEntry& entry) {
-  if (entry.name == "-Sr" || entry.name == "-Sc" || entry.name == "-cs" || entry.name == "-cw") return true;
+  if (entry.name == "-Sr" || entry.name == "-Sc" || entry.name == "-Sa" || entry.name == "-cs" ||
+      entry.name == "-cw")
+    return true;
   const bool refused = entry.group == Group::sphere || entry.group == Group::trees ||
                        entry.group == Group::color || entry.name == "-o" || entry.name == "-P" ||
                        entry.name == "-PP" || (!entry.glued && (entry.name == "-f" || entry.name == "-e"));
@@ -135,6 +141,10 @@ void checkNames(const ContributionOptions& options) {
 
 }  // namespace
 
+bool ContributionOptions::hasErrors() const {
+  return std::any_of(tracked.begin(), tracked.end(), [](const TrackedName& t) { return !t.errors.empty(); });
+}
+
 std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options) {
   std::vector<TrackedModifier> modifiers;
   BinFunctions functions;
@@ -172,6 +182,8 @@ void finish(ContributionOptions& options) {
   options.numberedRays = options.ray.uncorrelated;
   if (options.request != Request::answers) return;
   checkNames(options);
+  if (options.sphere.accuracy > 0 && options.raysPerRecord != 1)
+    throw rad::Error("-Sa needs -c 1: the accuracy is that of each ray");
   if (options.recovers && options.overwrites) throw rad::Error("-r and -fo exclude each other");
   if (options.recovers && options.out == NumberFormat::ascii)
     throw rad::Error("-r needs binary output (-ff, -fd or -fac): records of text have no fixed length");

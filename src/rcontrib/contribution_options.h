@@ -15,6 +15,7 @@ struct TrackedName {
   std::string bins;                    // -bn; empty: not given
   BinDefinitions definitionsOfBins{};  // definitions before -bn, used to evaluate it
   std::string output{};                // -o; empty: standard output
+  std::string errors{};                // -oe; empty: no standard errors
 
   bool operator==(const TrackedName&) const = default;
 };
@@ -28,6 +29,8 @@ struct ContributionOptions : Options {
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
 
+  // Whether records have standard errors.
+  bool hasErrors() const;
   // Whether -x and -y are numbers of records. With -c 0 there is a single record, the sum of all rays.
   bool countsRecords() const { return raysPerRecord > 0; }
   bool hasResolution() const { return countsRecords() && width > 0 && height > 0; }

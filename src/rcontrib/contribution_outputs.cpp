@@ -44,6 +44,8 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
   const bool named = !plan.name.empty();
   if (named && !plan.modifier.empty()) layout.lines += fmt::format("MODIFIER={}\n", plan.modifier);
   if (named && !plan.bin.empty()) layout.lines += fmt::format("BIN={}\n", plan.bin);
+  if (options.sphere.accuracy > 0) layout.lines += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
+  if (plan.errors) layout.lines += "STANDARD_ERRORS=yes\n";
   if (options.countsRecords() && options.height > 0)
     layout.lines += fmt::format("NROWS={}\n", options.height * std::max<int64_t>(options.width, 1));
   // As in RADIANCE, only an output with one value per pixel has a resolution. rmtxop and dctimestep read the
@@ -197,19 +199,17 @@ ContributionOutputs::ContributionOutputs(const ContributionOptions& options, con
   for (Output* output : completed) output->completeAfter(recovered_);
 }
 
-void ContributionOutputs::write(std::span<const double> sums, double factor) {
-  std::vector<double> column(components_);
+void ContributionOutputs::write(std::span<const double> values, std::span<const double> errors) {
   for (const auto& output : outputs_) {
     bytes_.clear();
     RecordText text(bytes_, options_.out);
     for (const ColumnRange& range : output->plan.columns)
       for (uint32_t i = 0; i < range.count; ++i) {
-        const double* const from = sums.data() + (range.first + i) * components_;
-        std::transform(from, from + components_, column.begin(), [&](double x) { return x * factor; });
+        const auto from = (output->plan.errors ? errors : values).subspan((range.first + i) * components_);
         if (components_ == 3)
-          text.color(Color(column[0], column[1], column[2]));
+          text.color(Color(from[0], from[1], from[2]));
         else
-          text.spectrum(column);
+          text.spectrum(from.first(components_));
       }
     text.end();
     output->write(bytes_);

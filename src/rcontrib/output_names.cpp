@@ -8,7 +8,7 @@
 namespace rsphere {
 namespace {
 
-// The parsed value of -o: text, and parts to be inserted.
+// The parsed value of -o or -oe: text, and parts to be inserted.
 struct Format {
   enum class Kind : uint8_t { text, modifier, number };
   struct Part {
@@ -24,14 +24,14 @@ struct Format {
   }
 };
 
-[[noreturn]] void wrongFormat(const std::string& spec) {
+[[noreturn]] void wrongFormat(std::string_view option, const std::string& spec) {
   throw rad::Error(
-      fmt::format("-o '{}': only %s, the modifier, and %d, the bin (%04d and the like), each "
+      fmt::format("{} '{}': only %s, the modifier, and %d, the bin (%04d and the like), each "
                   "once, can be put in; %% is a percent sign",
-                  spec));
+                  option, spec));
 }
 
-Format formatOf(const std::string& spec) {
+Format formatOf(std::string_view option, const std::string& spec) {
   using Kind = Format::Kind;
   Format format{{{Kind::text, ""}}};
   for (size_t i = 0; i < spec.size(); ++i) {
@@ -44,7 +44,7 @@ Format formatOf(const std::string& spec) {
     const std::string digits = spec.substr(i + 1, end - i - 1);
     const char letter = end < spec.size() ? spec[end] : 0;
     const Kind kind = letter == 's' ? Kind::modifier : Kind::number;
-    if ((letter != 's' && letter != 'd') || digits.size() > 3 || format.has(kind)) wrongFormat(spec);
+    if ((letter != 's' && letter != 'd') || digits.size() > 3 || format.has(kind)) wrongFormat(option, spec);
     format.parts.push_back({kind, digits});
     format.parts.push_back({Kind::text, ""});
     i = end;
@@ -74,14 +74,16 @@ class Planner {
   explicit Planner(const ContributionOptions& options)
       : pictures_(options.out == NumberFormat::rgbe && options.hasResolution()) {}
 
-  void add(const TrackedName& tracked, ColumnRange columns) {
-    const Format format = formatOf(tracked.output);
+  // spec: of -o, or of -oe.
+  void add(const TrackedName& tracked, const std::string& spec, bool errors, ColumnRange columns) {
+    const Format format = formatOf(errors ? "-oe" : "-o", spec);
+    errors_ = errors;
     const bool named = format.has(Format::Kind::modifier);
     if (!format.has(Format::Kind::number)) {
       join(nameOf(format, tracked.name, 0), {tracked.name, named}, columns, std::nullopt);
       return;
     }
-    uint64_t& before = numbersBefore_[tracked.output];
+    uint64_t& before = numbersBefore_[spec];
     for (uint32_t i = 0; i < columns.count; ++i) {
       const uint64_t number = before + i;
       join(nameOf(format, tracked.name, number), {tracked.name, named}, {columns.first + i, 1}, number);
@@ -111,16 +113,20 @@ class Planner {
             const std::optional<uint64_t>& number) {
     const auto [found, isNew] = byName_.emplace(name, plans_.size());
     if (isNew) {
-      plans_.push_back({name, {}, "", number ? fmt::format("{}", *number) : ""});
+      plans_.push_back({name, {}, "", number ? fmt::format("{}", *number) : "", errors_});
       if (modifier.inFileName || columns.count == 1) plans_.back().modifier = modifier.name;
       isNamed_.push_back(modifier.inFileName);
     }
     OutputPlan& plan = plans_[found->second];
+    if (plan.errors != errors_)
+      throw rad::Error(
+          fmt::format("-oe '{}': this output has values: standard errors need one of their own", name));
     plan.columns.push_back(columns);
     if (!isNew && !isNamed_[found->second]) plan.modifier.clear();
   }
 
   const bool pictures_;
+  bool errors_ = false;  // of the output that is being added
   std::vector<OutputPlan> plans_;
   std::vector<bool> isNamed_;  // of each plan: by %s of the first -o with this name
   std::map<std::string, size_t> byName_;
@@ -137,8 +143,12 @@ uint32_t OutputPlan::columnCount() const {
 
 std::vector<OutputPlan> planOutputs(const ContributionOptions& options, const Tracked& tracked) {
   Planner planner(options);
-  for (size_t i = 0; i < options.tracked.size(); ++i)
-    planner.add(options.tracked[i], {tracked.firstColumn(i), tracked.modifiers()[i].bins});
+  for (size_t i = 0; i < options.tracked.size(); ++i) {
+    const TrackedName& name = options.tracked[i];
+    const ColumnRange columns{tracked.firstColumn(i), tracked.modifiers()[i].bins};
+    planner.add(name, name.output, false, columns);
+    if (!name.errors.empty()) planner.add(name, name.errors, true, columns);
+  }
   return std::move(planner).plans();
 }
 

@@ -19,12 +19,14 @@ struct OutputPlan {
   std::vector<ColumnRange> columns{};
   std::string modifier{};  // named in the header; empty: none
   std::string bin{};       // the number contained in its name; empty: none
+  bool errors = false;     // whether it has standard errors (-oe) instead of values
 
   uint32_t columnCount() const;
 };
 
-// Names the outputs according to -o, in the order of first use. Throws rad::Error if an -o contains other
-// formats than %s and %d, or if a picture would have several values per pixel.
+// Names the outputs according to -o and -oe, in the order of first use. Throws rad::Error if one contains
+// other formats than %s and %d, if a picture would have several values per pixel, or if an output would have
+// values and standard errors.
 std::vector<OutputPlan> planOutputs(const ContributionOptions& options, const Tracked& tracked);
 
 }  // namespace rsphere

@@ -9,18 +9,24 @@
 
 namespace rsphere {
 
-// Appends the contributions of a ray to `bytes`, in the format that RecordSums reads.
-void appendContributions(std::string& bytes, const ContributionList& list);
+// Appends the contributions of a ray to `bytes`, in the format that RecordSums reads. variances: of its
+// values, or none.
+void appendContributions(std::string& bytes, const ContributionList& list,
+                         std::span<const double> variances = {});
 
 // Sums the contributions of rays, in their order, to records. It stores all bins of a single record,
 // regardless of the number of threads. The data passed by threads only contain the bins that a ray has
 // reached.
+//
+// The standard errors (-oe) of a record of one ray are those of the ray. Those of a record of several rays
+// follow from the spread of the rays, which are samples of the place or the pixel that the record stands for.
 class RecordSums final : public RecordSink {
  public:
   // columns: in a record. rays: a record is the mean over this number of rays; 0: it is the sum over all
-  // rays. skipped: number of records at the start that are not written. Keeps a reference.
-  RecordSums(ContributionOutputs& outputs, size_t columns, size_t components, uint64_t rays,
-             uint64_t skipped);
+  // rays. skipped: number of records at the start that are not written. errors: whether records have standard
+  // errors. Keeps a reference.
+  RecordSums(ContributionOutputs& outputs, size_t columns, size_t components, uint64_t rays, uint64_t skipped,
+             bool errors);
 
   void write(std::string_view bytes) override;
   void flush() override { outputs_.flush(); }
@@ -32,14 +38,15 @@ class RecordSums final : public RecordSink {
 
  private:
   size_t addRay(std::string_view bytes);
-  void writeRecord(double factor);
+  void writeRecord();
 
   ContributionOutputs& outputs_;
   const size_t components_;
   const uint64_t rays_;
   uint64_t skipped_;
   std::vector<double> sums_;
-  uint64_t added_ = 0;  // rays in the current record
+  std::vector<double> squares_;  // of rays, or variances of one ray; empty without errors
+  uint64_t added_ = 0;           // rays in the current record
 };
 
 }  // namespace rsphere

@@ -89,7 +89,7 @@ void requireSameCommand(const std::string& file, std::vector<std::string> words,
     refuse(file, fmt::format("it was made with {}, not with {}", was.empty() ? "the default" : was,
                              is.empty() ? "the default" : is));
   if (other.tracked != options.tracked)
-    refuse(file, "it was made for other modifiers, bins or outputs (-m -M -b -bn -p -e -f -o)");
+    refuse(file, "it was made for other modifiers, bins or outputs (-m -M -b -bn -p -e -f -o -oe)");
   if (!other.scene.empty() && other.scene != options.scene) refuse(file, "it was made with another scene");
 }
 

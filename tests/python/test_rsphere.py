@@ -143,6 +143,9 @@ class Contributors(unittest.TestCase):
         by_function = {"expression": "if(Dz,1,0)", "count": 2}
         halves = scene.contributions(rays, ["bulb"], bins=by_function, samples=1, ambient_bounces=1, ad=8, u=True)
         np.testing.assert_allclose(halves.value.sum(axis=2), one.value[:, :1, 0], rtol=1e-9, atol=1e-12)
+        accurate = scene.contributions(rays[:3], ["bulb"], accuracy=.1, ad=8)
+        errors = accurate.standard_error[:, 0, 0, 1] / np.maximum(accurate.value[:, 0, 0, 1], 1e-9)
+        self.assertTrue(np.all(errors < .15), errors)
         with self.assertRaises(TypeError):
             scene.contributions(rays, ["bulb"], bins={"expresion": "0"})
         with self.assertRaises(TypeError):

@@ -56,7 +56,7 @@ struct Options {
   bool irradianceAtOrigin = false;   // -I  irradiance of sensors at the origins, facing along the directions
   bool irradianceAtSurface = false;  // -i  irradiance of the surface that is hit, instead of its radiance
 
-  std::optional<double> accuracy;  // -Sa  relative standard error of points and rays, not of contributions
+  std::optional<double> accuracy;  // -Sa  relative standard error; of contributions, of their sum
 
   // Points
   std::optional<int> directions;      // -Sn  base directions at a point
@@ -93,7 +93,8 @@ struct ContributionOptions : Options {
   Bins bins;                  // of each modifier
   bool coefficients = false;  // coefficients of the paths to the modifiers, instead of contributed radiance
   // Number of times that each ray is traced with different random numbers. The answer is the mean, and the
-  // standard error follows from the spread; 1: no standard error.
+  // standard error follows from the spread; 1: no standard error. With an accuracy it is not used: each ray
+  // then takes as many samples as the accuracy needs.
   int samples = 8;
 };
 

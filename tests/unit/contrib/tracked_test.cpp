@@ -73,7 +73,7 @@ TEST(Tracked, SumOverAllThatEmitsIsTheAnswer) {
           const Color sum = sumOf(tracer.trace(origin, unit, 0, seed));
           PathTracer plain = room.transport().pathTracer();
           const Color answer = plain.trace(origin, unit, 0, seed).value.color;
-          expectEqual(tracer.radiance().color, answer, 0);  // an observer changes nothing
+          expectEqual(tracer.ray().value.color, answer, 0);  // an observer changes nothing
           expectEqual(sum, answer, 1e-12);
         }
     }
@@ -107,7 +107,7 @@ ByBins byBins(int firstRays, double spoil = 1) {
   double sum = 0, square = 0;
   for (uint64_t seed = 1; seed <= kRuns; ++seed) {
     const ContributionList& list = tracer.trace(V3d(2, 2.5, .8), V3d(0, 0, 1), 0, seed);
-    expectEqual(sumOf(list), tracer.radiance().color, 1e-12);
+    expectEqual(sumOf(list), tracer.ray().value.color, 1e-12);
     double all = 0;
     for (size_t i = 0; i < list.columns().size(); ++i) all += spoil * list.values()[3 * i];
     sum += all, square += all * all;

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 
 #include "rays/prepared_scene.h"
@@ -124,7 +127,7 @@ TEST(RecordSums, AreMeansOverRaysInTheirOrder) {
   ContributionOptions options = columns.options(folder.path + "/%s.txt", NumberFormat::ascii);
   options.header = false;
   ContributionOutputs outputs(options, *columns.tracked, {});
-  RecordSums sums(outputs, 3, 3, 2, 0);
+  RecordSums sums(outputs, 3, 3, 2, 0, false);
   sums.write(rayOf(1, 1) + rayOf(1, 3) + rayOf(2, 1));
   sums.write("");
   sums.write(rayOf(0, 1) + rayOf(0, 5));
@@ -144,11 +147,43 @@ TEST(RecordSums, OfAllRaysAreOneRecord) {
   ContributionOptions options = columns.options(folder.path + "/x", NumberFormat::float32);
   options.header = false;
   ContributionOutputs outputs(options, *columns.tracked, {});
-  RecordSums sums(outputs, 1, 3, 0, 0);
+  RecordSums sums(outputs, 1, 3, 0, 0, false);
   sums.write(rayOf(0, 1) + rayOf(0, 2));
   EXPECT_EQ(sums.end(), 0u);
   outputs.close();
   EXPECT_EQ(contents(folder.path + "/x"), bytesOf({3.f, 6.f, 9.f}));
+}
+
+// One ray brings variances; the error of several rays follows from their spread.
+TEST(RecordSums, HaveStandardErrorsOnRequest) {
+  const Columns columns({1});
+  const Folder folder;
+  ContributionOptions options = columns.options(folder.path + "/x", NumberFormat::float64);
+  options.tracked[0].errors = folder.path + "/e";
+  options.header = false;
+  const auto errorsOf = [&](uint64_t rays, const std::string& bytes) {
+    options.overwrites = true;
+    ContributionOutputs outputs(options, *columns.tracked, {});
+    RecordSums sums(outputs, 1, 3, rays, 0, true);
+    sums.write(bytes);
+    sums.end();
+    outputs.close();
+    std::vector<double> errors(3);
+    const std::string found = contents(folder.path + "/e");
+    EXPECT_EQ(found.size(), 3 * sizeof(double));
+    std::memcpy(errors.data(), found.data(), std::min(found.size(), 3 * sizeof(double)));
+    return errors;
+  };
+  ContributionList list(3);
+  list.add(0, std::array{1., 2., 3.});
+  std::string one;
+  appendContributions(one, list, std::array{.25, 0., 4.});
+  EXPECT_EQ(errorsOf(1, one), (std::vector<double>{.5, 0, 2}));
+  // 1, 3 and 5 have the mean 3, and its variance is 4 / 3.
+  const std::string three = rayOf(0, 1) + rayOf(0, 3) + rayOf(0, 5);
+  EXPECT_NEAR(errorsOf(3, three)[0], std::sqrt(4. / 3), 1e-12);
+  EXPECT_NEAR(errorsOf(0, three)[0], 3 * std::sqrt(4. / 3), 1e-12) << "of the sum";
+  EXPECT_NEAR(errorsOf(3, three)[2], 3 * std::sqrt(4. / 3), 1e-12);
 }
 
 TEST(ContributionOutputs, FilesThatExistAreKeptOverwrittenOrCompleted) {
@@ -162,7 +197,7 @@ TEST(ContributionOutputs, FilesThatExistAreKeptOverwrittenOrCompleted) {
   const std::string a = folder.path + "/a", b = folder.path + "/b";
   const auto run = [&](int from, int to) {
     ContributionOutputs outputs(options, *columns.tracked, {});
-    RecordSums sums(outputs, 2, 3, 1, outputs.recovered());
+    RecordSums sums(outputs, 2, 3, 1, outputs.recovered(), false);
     for (int i = from; i < to; ++i) sums.write(rayOf(i % 2, i));
     sums.end();
     outputs.close();
@@ -193,7 +228,7 @@ TEST(ContributionOutputs, ACommandThatReadsNothingIsAFaultWithItsStatus) {
     const ContributionOptions options = columns.options(command, NumberFormat::ascii);
     ContributionOutputs outputs(options, *columns.tracked, {});
     const std::vector<double> record(3);
-    for (int i = 0; i < 10000; ++i) outputs.write(record, 1);
+    for (int i = 0; i < 10000; ++i) outputs.write(record, {});
     outputs.close();
   };
   EXPECT_EQ(faultOf([&] { run("!exit 3"); }, rad::Status::system),
