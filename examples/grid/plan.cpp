@@ -47,12 +47,16 @@ constexpr const char* kUsage =
 
 Scene files are scene text or one octree. rtrace is run with)";
 
-// Diffuse light between surfaces, interpolated: the setting of examples/daylight.
-const std::vector<std::string> kDefaults{"-ab", "8",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
+// Diffuse light between surfaces, interpolated, for an rtrace without -Sa.
+const std::vector<std::string> kOfOthers{"-ab", "8",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
                                          "64",  "-lw", "1e-4", "-dj", "1",   "-dt",  "0",   "-st", "1"};
 
+std::vector<std::string> defaults() {
+  return isOtherRtrace() ? kOfOthers : std::vector<std::string>{"-Sa", ".01"};
+}
+
 struct Settings {
-  std::vector<std::string> surfaces, context, files, rtrace = kDefaults;
+  std::vector<std::string> surfaces, context, files, rtrace = defaults();
   double height = 0, spacing = 0, margin = 0, maintenance = 1;
   bool upOnly = false, reversed = false, skipDark = false, values = false, onlyPoints = false;
   bool allPolygons = false;
@@ -191,6 +195,21 @@ std::vector<std::string> remarksOf(const Settings& s, const Plane& plane, const 
   return lines;
 }
 
+// The largest relative standard error of a lit point; empty: no errors are known.
+std::string errorText(const std::vector<V3d>& sensors, const std::vector<double>& values,
+                      const std::vector<double>& errors) {
+  double largest = -1;
+  V3d where(0, 0, 0);
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (!(values[i] > 0) || errors[i] / values[i] <= largest) continue;
+    largest = errors[i] / values[i];
+    where = sensors[i];
+  }
+  if (largest < 0) return "";
+  return fmt::format("Standard error of a point: at most {:.2g}% (at {:.3g} {:.3g} {:.3g})", 100 * largest,
+                     where.x, where.y, where.z);
+}
+
 // "Illuminance 0.8 above floor (lx)"
 std::string titleOf(const Settings& s) {
   const std::string where =
@@ -228,9 +247,9 @@ void run(const Settings& s) {
     warn(fmt::format("the front of \"{}\" faces down, and so do the sensors; -r measures its back",
                      s.surfaces[0]));
 
-  std::vector<double> values = s.readings.empty()
-                                   ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files)
-                                   : readIlluminances(s.readings, sensors.size());
+  auto [values, errors] = s.readings.empty() ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files)
+                                             : Illuminances{readIlluminances(s.readings, sensors.size()), {}};
+  const std::string largestError = errorText(sensors, values, errors);
   for (double& value : values) value *= s.maintenance;
   std::vector<bool> lit;
   for (const double value : values) lit.push_back(value > 0);
@@ -257,10 +276,14 @@ void run(const Settings& s) {
   if (!s.skipDark) dark = 0;
 
   const Summary summary(values);
-  Drawing drawing{s.title.empty() ? titleOf(s) : s.title, remarksOf(s, plane, grid, dark, summary),
-                  s.levels.empty() ? roundLevels(values) : s.levels, findOutlines(scene, s.context, plane),
-                  s.values, s.unit};
+  Drawing drawing{s.title.empty() ? titleOf(s) : s.title,
+                  remarksOf(s, plane, grid, dark, summary),
+                  s.levels.empty() ? roundLevels(values) : s.levels,
+                  findOutlines(scene, s.context, plane),
+                  s.values,
+                  s.unit};
   for (const std::string& line : drawing.remarks) fmt::print("{}\n", line);
+  if (!largestError.empty()) fmt::print("{}\n", largestError);
   if (!s.table.empty()) {
     std::string table;
     for (size_t i = 0; i < sensors.size(); ++i)
@@ -276,7 +299,7 @@ void run(const Settings& s) {
 
 int main(int argc, char** argv) {
   if (argc == 1) {
-    fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::kDefaults, " "));
+    fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::defaults(), " "));
     return 0;
   }
   try {

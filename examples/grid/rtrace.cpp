@@ -26,7 +26,7 @@ rad::Error systemError(const std::string& what) {
 }
 
 std::string program() {
-  if (const char* named = std::getenv("RTRACE"); named && *named) return named;
+  if (isOtherRtrace()) return std::getenv("RTRACE");
   std::error_code none;
   const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).parent_path() / "rtrace";
   return std::filesystem::exists(beside, none) ? beside.string() : "rtrace";
@@ -34,9 +34,14 @@ std::string program() {
 
 }  // namespace
 
-std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
-                                      const std::vector<std::string>& options,
-                                      const std::vector<std::string>& files) {
+bool isOtherRtrace() {
+  const char* const named = std::getenv("RTRACE");
+  return named && *named;
+}
+
+Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
+                               const std::vector<std::string>& options,
+                               const std::vector<std::string>& files) {
   const File sensors(std::tmpfile(), std::fclose);
   if (!sensors) throw systemError("cannot make a temporary file");
   for (const Imath::V3d& p : points)
@@ -47,7 +52,11 @@ std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const 
   // The user's options come before those that the answer relies on.
   std::vector<std::string> words{program()};
   words.insert(words.end(), options.begin(), options.end());
-  words.insert(words.end(), {"-h-", "-I+", "-fa", "-ov"});
+  words.insert(words.end(), {"-h-", "-I+", "-fa"});
+  if (isOtherRtrace())
+    words.insert(words.end(), {"-ov"});
+  else
+    words.insert(words.end(), {"-pY", "-ove"});
   words.insert(words.end(), files.begin(), files.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -66,12 +75,18 @@ std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const 
     _exit(127);
   }
   close(pipe[1]);
-  std::vector<double> illuminances;
+  Illuminances found;
   {
     const File answers(fdopen(pipe[0], "r"), std::fclose);
     rsphere::Color c;
-    while (answers && std::fscanf(answers.get(), "%lf %lf %lf", &c.x, &c.y, &c.z) == 3)
-      illuminances.push_back(kLumensPerWatt * rsphere::brightness(c));
+    if (isOtherRtrace())
+      while (answers && std::fscanf(answers.get(), "%lf %lf %lf", &c.x, &c.y, &c.z) == 3)
+        found.values.push_back(kLumensPerWatt * rsphere::brightness(c));
+    else
+      while (answers && std::fscanf(answers.get(), "%lf %lf", &c.x, &c.y) == 2) {
+        found.values.push_back(c.x);
+        found.errors.push_back(c.y);
+      }
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -81,10 +96,10 @@ std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const 
                      rad::Status::system);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw rad::Error(fmt::format("\"{}\" failed; its message is above", words[0]));
-  if (illuminances.size() != points.size())
+  if (found.values.size() != points.size())
     throw rad::Error(
-        fmt::format("\"{}\" answered {} of {} points", words[0], illuminances.size(), points.size()));
-  return illuminances;
+        fmt::format("\"{}\" answered {} of {} points", words[0], found.values.size(), points.size()));
+  return found;
 }
 
 }  // namespace grid

@@ -7,12 +7,20 @@
 
 namespace grid {
 
-// The illuminances (lx) of sensors at these points that face along the normal, by running rtrace with these
+// Whether $RTRACE names another rtrace, which may be one that states no errors.
+bool isOtherRtrace();
+
+struct Illuminances {
+  std::vector<double> values;  // lx
+  std::vector<double> errors;  // standard errors, lx; empty: those of another rtrace
+};
+
+// The illuminances of sensors at these points that face along the normal, by running rtrace with these
 // options on these scene files. The program is $RTRACE, or else the rtrace beside this program, or else that
 // of PATH. Throws rad::Error if it cannot be run, fails, or does not answer every point; its own messages go
 // to standard error.
-std::vector<double> traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
-                                      const std::vector<std::string>& options,
-                                      const std::vector<std::string>& files);
+Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
+                               const std::vector<std::string>& options,
+                               const std::vector<std::string>& files);
 
 }  // namespace grid
