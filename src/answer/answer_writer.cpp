@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "points/kernels.h"
 #include "records/record_text.h"
 
 namespace rsphere {
@@ -25,13 +26,12 @@ int componentCount(const AnswerOptions& options) {
   int count = 0;
   if (options.sphereMode && !options.sphere.everyDirection) {
     using Form = PointQuantity::Form;
-    for (const char letter : options.outputs) {
-      const PointQuantity& quantity = *pointQuantity(letter);
-      const bool isColor = quantity.form == Form::colors || quantity.form == Form::errors;
-      count += (quantity.values == PointQuantity::kOfZones ? options.sphere.zones : quantity.values) *
-               (isColor                         ? color
-                : quantity.form == Form::vector ? parts
-                                                : 1);
+    for (const PointQuantity* const quantity : pointQuantities(options.outputs)) {
+      const Form form = quantity->form;
+      count += (quantity->values == PointQuantity::kOfZones ? options.sphere.zones : quantity->values) *
+               (form == Form::colors || form == Form::errors         ? color
+                : form == Form::vector || form == Form::vectorErrors ? parts
+                                                                     : 1);
     }
     return count;
   }
@@ -127,6 +127,14 @@ void AnswerWriter::writeLightVector(RecordText& text, const PointAnswer& answer)
   }
 }
 
+void AnswerWriter::writeErrorsOfLightVector(RecordText& text, const PointAnswer& answer) const {
+  const size_t parts = options_.contributors.size();
+  const auto* const errors = answer.quantityErrors.data() + Kernels::vector;
+  for (size_t i = 0; i < std::max<size_t>(1, parts); ++i)
+    for (size_t axis = 0; axis < 3; ++axis)
+      text.number(parts > 0 ? brightness(errors[axis].channels.color.part(i)) : errors[axis].brightness);
+}
+
 void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const {
   const auto named = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), answer.modifier) != list.end();
@@ -158,13 +166,13 @@ void AnswerWriter::writeColors(RecordText& text, const PointQuantity& quantity,
 void AnswerWriter::write(std::string& bytes, const PointAnswer& answer) const {
   using Form = PointQuantity::Form;
   RecordText text(bytes, options_.out);
-  for (const char letter : options_.outputs) {
-    const PointQuantity& quantity = *pointQuantity(letter);
-    switch (quantity.form) {
+  for (const PointQuantity* const quantity : pointQuantities(options_.outputs)) {
+    switch (quantity->form) {
       case Form::place: text.vector(answer.point); break;
       case Form::colors:
-      case Form::errors: writeColors(text, quantity, answer); break;
+      case Form::errors: writeColors(text, *quantity, answer); break;
       case Form::vector: writeLightVector(text, answer); break;
+      case Form::vectorErrors: writeErrorsOfLightVector(text, answer); break;
       case Form::count: text.integer(answer.directions); break;
     }
   }

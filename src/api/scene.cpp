@@ -324,6 +324,7 @@ struct Column {
   char letter;
   Quantity* quantity = nullptr;
   std::vector<std::string>* names = nullptr;
+  char of = 0;  // for a standard error at a point, the letter of its quantity
 };
 
 std::vector<Column> columnsOf(RayAnswers& a) {
@@ -351,7 +352,13 @@ std::vector<Column> columnsOf(RayAnswers& a) {
 
 std::vector<Column> columnsOf(PointAnswers& a) {
   return {{'v', &a.mean},
-          {'e', &a.meanStandardError},
+          {'e', &a.meanStandardError, nullptr, 'v'},
+          {'e', &a.scalarIrradianceStandardError, nullptr, 'E'},
+          {'e', &a.cylindricalIrradianceStandardError, nullptr, 'C'},
+          {'e', &a.semicylindricalIrradianceStandardError, nullptr, 'S'},
+          {'e', &a.hemisphericalIrradianceStandardError, nullptr, 'h'},
+          {'e', &a.faceIrradianceStandardError, nullptr, 'H'},
+          {'e', &a.lightVectorStandardError, nullptr, 'u'},
           {'E', &a.scalarIrradiance},
           {'C', &a.cylindricalIrradiance},
           {'S', &a.semicylindricalIrradiance},
@@ -360,7 +367,8 @@ std::vector<Column> columnsOf(PointAnswers& a) {
           {'u', &a.lightVector},
           {'k', &a.directions},
           {'z', &a.zones},
-          {'Z', &a.zonesStandardError},
+          {'e', &a.zonesStandardError, nullptr, 'z'},
+          {'Z', &a.zonesStandardError, nullptr, 'z'},
           {'o', &a.point}};
 }
 
@@ -374,9 +382,18 @@ std::vector<Column> columnsOf(GlareAnswers& a) {
 std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere::Options& options,
                                    size_t records) {
   std::vector<Column> columns;
-  for (const char letter : options.outputs) {
-    const auto known =
-        std::find_if(all.begin(), all.end(), [&](const Column& c) { return c.letter == letter; });
+  const bool points = options.sphereMode && !options.sphere.glare.wanted;
+  const auto quantities =
+      points ? pointQuantities(options.outputs) : std::vector<const PointQuantity*>(options.outputs.size());
+  rsphere::Options before = options;  // those of the letters so far
+  before.outputs.clear();
+  for (size_t i = 0; i < options.outputs.size(); ++i) {
+    const char letter = options.outputs[i];
+    const int columnsBefore = componentCount(before);
+    before.outputs += letter;
+    const auto known = std::find_if(all.begin(), all.end(), [&](const Column& c) {
+      return c.letter == letter && (!quantities[i] || c.of == quantities[i]->of);
+    });
     if (known == all.end()) {
       columns.push_back({letter});  // a tilde
       continue;
@@ -386,9 +403,7 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
       known->names->resize(records);
       continue;
     }
-    rsphere::Options alone = options;
-    alone.outputs = letter;
-    known->quantity->columns = static_cast<size_t>(componentCount(alone));
+    known->quantity->columns = static_cast<size_t>(componentCount(before) - columnsBefore);
     known->quantity->numbers.resize(records * known->quantity->columns);
   }
   return columns;

@@ -261,8 +261,9 @@ void checkLetters(const Options& options) {
   std::string colors = !options.sphereMode ? "vrx" : points ? "" : "v";
   if (points)
     for (const PointQuantity& quantity : pointQuantities()) {
+      if (quantity.definition.empty()) continue;  // another meaning of e
       if (quantity.values != PointQuantity::kOfZones || options.sphere.zones > 0) known += quantity.letter;
-      if (quantity.each && quantity.values == 1) colors += quantity.letter;
+      if (quantity.each && quantity.values == 1 && !quantity.definition.empty()) colors += quantity.letter;
     }
   for (const char letter : options.outputs + options.treeOutputs) {
     if (known.find(letter) != std::string::npos) continue;
@@ -408,6 +409,7 @@ void checkTogether(Options& options, bool mostGiven) {
   if (options.listSpecial && !options.picture.empty())
     commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");
   SphereOptions& sphere = options.sphere;
+  if (!sphere.glare.wanted && !sphere.everyDirection) sphere.quantityErrors = ownErrors(options.outputs);
   options.ray.leastForPatches = sphere.raysForPatches();
   if (!mostGiven) {
     sphere.mostDirections = std::max(sphere.mostDirections, 2 * sphere.baseDirections);

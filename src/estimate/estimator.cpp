@@ -66,26 +66,26 @@ struct Half {
   Irradiance excess;
   Variance variance;
   SharedError shared;
-  ZoneVariances ofZones;
-  std::vector<SharedError> sharedByZone;
+  KernelVariances ofKernels;
+  std::vector<SharedError> sharedByKernel;
 
-  explicit Half(const DirectionBins* zones) : moments(zones), ofZones(zones) {}
+  explicit Half(const Kernels& kernels) : moments(kernels.zones), ofKernels(kernels) {}
 
   void add(const SampledSet& set, const Moments& ofSet) {
     moments.add(ofSet, 1);
     excess += set.excess.total;
     variance += set.variance;
     shared.add(set.shared, 1);
-    ofZones.add(set.ofZones, 1);
-    addAll(set.sharedByZone, 1, sharedByZone);
+    ofKernels.add(set.ofKernels, 1);
+    addAll(set.sharedByKernel, 1, sharedByKernel);
   }
   void add(const Half& other, double share) {
     moments.add(other.moments, share);
     excess += other.excess * share;
     variance += other.variance * (share * share);
     shared.add(other.shared, share);
-    ofZones.add(other.ofZones, share * share);
-    addAll(other.sharedByZone, share, sharedByZone);
+    ofKernels.add(other.ofKernels, share * share);
+    addAll(other.sharedByKernel, share, sharedByKernel);
   }
 };
 
@@ -134,27 +134,61 @@ Variance coarseVariance(const Irradiance& total, const SpectralSampling* samplin
 }
 
 // Rounding may leave a variance a little below 0.
-PointAnswer::ZoneError standardErrorOf(const Variance& variance, double solidAngle) {
+PointAnswer::OwnError standardErrorOf(const Variance& variance, double solidAngle) {
   const auto root = [&](double v) { return solidAngle > 0 ? std::sqrt(std::max(0., v)) / solidAngle : 0; };
-  PointAnswer::ZoneError error{Radiance(variance.channels), root(variance.brightness)};
+  PointAnswer::OwnError error{Radiance(variance.channels), root(variance.brightness)};
   error.channels.color.transform(root);
   return error;
 }
 
-// coarse: coarseError().
-std::vector<PointAnswer::ZoneError> zoneErrorsOf(const Half& sums, const DirectionBins& zones,
-                                                 const SpectralSampling* sampling, double coarse) {
-  std::vector<PointAnswer::ZoneError> errors;
-  for (size_t i = 0; i < zones.count(); ++i) {
-    Variance variance = sums.ofZones.all[i];
-    const Color& border = sums.moments.borders[i];
-    variance += {border, brightness(border)};
-    if (i < sums.sharedByZone.size()) variance = varianceWith(sums.sharedByZone[i], variance, sampling);
-    variance += coarseVariance(sums.moments.ofZones[i], sampling, coarse);
-    errors.push_back(standardErrorOf(variance, zones.solidAngle(i)));
+// The errors of the zones and quantities that have errors of their own.
+class KernelErrors {
+ public:
+  // coarse: coarseError().
+  KernelErrors(const Half& sums, const BaseSet& base, double coarse)
+      : sums_(sums), base_(base), coarse_(coarse) {}
+
+  std::vector<PointAnswer::OwnError> ofZones() const {
+    std::vector<PointAnswer::OwnError> errors;
+    for (size_t i = 0; i < base_.kernels.zoneCount(); ++i) {
+      const Color& border = sums_.moments.borders[i];
+      errors.push_back(
+          of(i, sums_.moments.ofZones[i], base_.zones->solidAngle(i), {border, brightness(border)}));
+    }
+    return errors;
   }
-  return errors;
-}
+  // answer: with the quantities.
+  std::vector<PointAnswer::OwnError> ofQuantities(const PointAnswer& answer) const {
+    std::vector<PointAnswer::OwnError> errors;
+    if (base_.kernels.quantities.none()) return errors;
+    const size_t first = base_.kernels.zoneCount();
+    for (size_t i = 0; i < Kernels::kQuantities; ++i) errors.push_back(of(first + i, valueOf(i, answer), 1));
+    return errors;
+  }
+
+ private:
+  PointAnswer::OwnError of(size_t kernel, const Irradiance& value, double solidAngle,
+                           const Variance& more = {}) const {
+    Variance variance = sums_.ofKernels.all[kernel];
+    variance += more;
+    if (kernel < sums_.sharedByKernel.size())
+      variance = varianceWith(sums_.sharedByKernel[kernel], variance, base_.sampling);
+    variance += coarseVariance(value, base_.sampling, coarse_);
+    return standardErrorOf(variance, solidAngle);
+  }
+  Irradiance valueOf(size_t quantity, const PointAnswer& a) const {
+    if (quantity == Kernels::cylindrical) return a.cylindricalIrradiance;
+    if (quantity == Kernels::semicylindrical) return a.semicylindricalIrradiance(base_.kernels.facing);
+    if (quantity == Kernels::hemispherical) return a.hemisphericalIrradiance();
+    if (quantity < Kernels::vector) return a.facing[quantity - Kernels::faces];
+    const size_t axis = quantity - Kernels::vector;
+    return a.facing[2 * axis] - a.facing[2 * axis + 1];
+  }
+
+  const Half& sums_;
+  const BaseSet& base_;
+  double coarse_;
+};
 
 // Whether the default strategy (-Sw c) sends directions to special objects (-Sk above 0).
 bool sendsToSpecialObjects(const SphereOptions& options) {
@@ -264,7 +298,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   // -Sa may send a million directions. They are kept only if they are to be printed.
   const bool keep = options_.everyDirection || options_.accuracy <= 0;
   const auto most = static_cast<size_t>(options_.mostOfAllSets());
-  std::array<Half, 2> halves{Half(base_.zones.get()), Half(base_.zones.get())};
+  std::array<Half, 2> halves{Half(base_.kernels), Half(base_.kernels)};
   std::vector<KeptSet> kept;
   TwoHalves decision(options_.accuracy, dark_, floor_);
   const SamplingStrategy& strategy = strategyFor(point);
@@ -285,7 +319,7 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
     largest = std::max(largest, set.samples.size());
     if (keep) kept.push_back({*next, std::move(set)});
   }
-  Half all(base_.zones.get());
+  Half all(base_.kernels);
   for (size_t k = 0; k < halves.size(); ++k)
     if (const double share = decision.share(k); share > 0) all.add(halves[k], share);
   Variance variance = varianceWith(all.shared, all.variance, base_.sampling);
@@ -294,11 +328,14 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   workspace.samples = std::move(samples.samples);
   workspace.rays = std::move(samples.rays);
   PointAnswer answer = all.moments.answer(point, directions);
-  const PointAnswer::ZoneError error = standardErrorOf(variance, 4 * std::numbers::pi);
+  const PointAnswer::OwnError error = standardErrorOf(variance, 4 * std::numbers::pi);
   answer.standardError = error.channels;
   answer.brightnessError = error.brightness;
-  if (base_.zones && base_.neighbours)
-    answer.zoneErrors = zoneErrorsOf(all, *base_.zones, base_.sampling, sharedError());
+  if (base_.neighbours) {
+    const KernelErrors errors(all, base_, sharedError());
+    answer.zoneErrors = errors.ofZones();
+    answer.quantityErrors = errors.ofQuantities(answer);
+  }
   answer.isDark = isDark(answer, lit) || decision.gaveUp();
   const double value =
       std::max(photopicOf(answer.mean.color, base_.sampling), floor_ / (4 * std::numbers::pi));

@@ -82,19 +82,25 @@ SampledSet SilhouetteWeights::sample(const SetAtPoint& set, PathTracer& tracer, 
   const auto othersOf = std::span(sampled.samples).subspan(toImages.size());
   sampled.excess = glancedBeside(view, others.samples);
   sampled.shared = std::move(view.glanced.shared);
-  sampled.sharedByZone = std::move(view.glanced.sharedByZone);
-  sampled.ofZones = std::move(view.glanced.ofZones);
+  sampled.sharedByKernel = std::move(view.glanced.sharedByKernel);
+  sampled.ofKernels = std::move(view.glanced.ofKernels);
   sampled.litGlances = view.glanced.lit;
   sampled.variance = view.glanced.variance;
-  if (base_.neighbours)
-    sampled.variance += varianceOf(othersOf, plan.runs, toImages, zonesOf(sampled.ofZones));
+  if (!base_.neighbours) return sampled;
+  sampled.variance += varianceOf(othersOf, plan.runs, toImages, &sampled.ofKernels);
+  sampled.ofKernels.addQuantities([&](size_t quantity) {
+    auto images = toImages;
+    for (SeenSources::Sample& image : images)
+      image.direction.value *= base_.kernels.weight(quantity, image.direction.direction);
+    return varianceOf(weighted(othersOf, base_.kernels, quantity), plan.runs, images, nullptr);
+  });
   return sampled;
 }
 
 SilhouetteWeights::View SilhouetteWeights::viewFrom(const SetAtPoint& set, PathTracer& tracer) const {
   const size_t base = base_.directions.size(), most = static_cast<size_t>(options_.mostDirections);
   View view;
-  view.glanced = DiffuseGlances::Found(base_.zones.get(), set.gaze());
+  view.glanced = DiffuseGlances::Found(base_.kernels, set.gaze());
   view.images =
       sources_.findImages(set.point(), raysToImages(base, most > base ? most - base : 0, glances_ != nullptr),
                           options_.densityFactor);
@@ -197,7 +203,7 @@ Moments SilhouetteWeights::glancedBeside(const View& view, std::span<const Direc
 Variance SilhouetteWeights::varianceOf(std::span<const DirectionSample> others,
                                        std::span<const Plan::Run> runs,
                                        std::span<const SeenSources::Sample> toImages,
-                                       ZoneVariances* to) const {
+                                       KernelVariances* to) const {
   const auto base = others.first(base_.directions.size());
   Variance variance = evenVariance(base, *base_.neighbours, base_.sampling, to);
   for (const Plan::Run& r : runs) {

@@ -76,7 +76,7 @@ class SilhouetteWeights : public SamplingStrategy {
   // Stage 5: the variance due to directions of both kinds, without the variance of glances. to: see
   // error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const Plan::Run> runs,
-                      std::span<const SeenSources::Sample> toImages, ZoneVariances* to) const;
+                      std::span<const SeenSources::Sample> toImages, KernelVariances* to) const;
 
   const SphereOptions& options_;
   const BaseSet& base_;

@@ -43,10 +43,7 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
       set.isFirst() ? cellSolidAngles(triangulation_, dynamic, memory) : cellSolidAngles(directions, memory);
   if (options_.verify) checkCells(memory);
   SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
-  sampled.ofZones = ZoneVariances(base_.zones.get());
-  if (base_.neighbours)
-    sampled.variance =
-        evenVariance(sampled.samples, neighboursOf(memory), base_.sampling, zonesOf(sampled.ofZones));
+  if (base_.neighbours) sampled.setVariance(neighboursOf(memory), base_);
   return sampled;
 }
 

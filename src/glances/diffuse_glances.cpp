@@ -181,6 +181,15 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::makeDaylit(const SphereTra
   });
 }
 
+namespace {
+
+SharedError sharedError(const VertexLight::Record& record) {
+  return {std::vector(record.batches.begin(), record.batches.end()),
+          {record.squares, record.squaredBrightness}};
+}
+
+}  // namespace
+
 DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces,
                                const SphereOptions& options, const BaseSet& base, LightPools::Tracers tracers)
     : prepared_(prepared),
@@ -189,6 +198,7 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
               mixBits(options.rotation), tracers),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
       zones_(base.zones),
+      kernels_(base.kernels),
       joins_(tuning::DiffuseGlances::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;
   VoronoiWorkspace workspace;
@@ -202,61 +212,89 @@ DiffuseGlances::Found DiffuseGlances::at(const SetAtPoint& set, PathTracer& trac
   const auto n = static_cast<double>(glances_.size());
   const Joins joins(both, set.point(), joins_, n);
   const SpectralSampling* const sampling = prepared_.options().sampling;
-  Records records(zones_ ? zones_->count() + 1 : 1);
-  for (VertexLight::Record& record : records) record.sampling = sampling;
-  Found found(zones_.get(), set.gaze());
-  addJoins(set, joins, records, found);
+  VertexLight::Record record;  // of all joins and, where only the mean has an error, of all glances
+  record.sampling = sampling;
+  Found found(kernels_, set.gaze());
+  addJoins(set, joins, record, found);
 
   Glancing glancing{both, randomOf(set, GlanceStream::glances), &joins, nullptr, 4 * kPi / n};
   const Outdoors beyond{tracer};
   const OutdoorRadiance outdoors(beyond);
   glancing.outdoors = &outdoors;
+  const bool apart = neighbours_ && kernels_.count() > 0;
   std::vector<DirectionSample> seen;
   for (const V3d& direction : set.turned(glances_)) {
-    if (neighbours_) glancing.record = &recordFor(direction, records);
+    VertexLight::Record own;
+    own.sampling = sampling;
+    if (neighbours_) glancing.record = apart ? &own : &record;
     const Radiance radiance = glance(set.point(), direction, glancing);
     if (maxChannel(radiance) > 0) ++found.lit;
     found.moments.add(direction, irradianceFrom(radiance, glancing.cell), sampling, glancing.cell);
     if (neighbours_) seen.push_back({direction, glancing.cell, radiance});
+    if (!apart) continue;
+    const SharedError error = sharedError(own);
+    found.shared.add(error, 1);
+    kernels_.weigh(direction, [&](size_t i, double weight) { found.sharedByKernel[i].add(error, weight); });
   }
   if (!neighbours_) return found;
-  found.variance += evenVariance(seen, *neighbours_, sampling, zonesOf(found.ofZones));
-  for (const VertexLight::Record& record : records) {
-    const SharedError error{std::vector(record.batches.begin(), record.batches.end()),
-                            {record.squares, record.squaredBrightness}};
-    found.shared.add(error, 1);
-    if (zones_) found.sharedByZone.push_back(error);
-  }
+  found.variance += evenVariance(seen, *neighbours_, sampling, &found.ofKernels);
+  found.ofKernels.addQuantities([&](size_t quantity) {
+    return evenVariance(weighted(seen, kernels_, quantity), *neighbours_, sampling);
+  });
+  found.shared.add(sharedError(record), 1);
   return found;
 }
 
-VertexLight::Record& DiffuseGlances::recordFor(const V3d& direction, Records& records) const {
-  return records[zones_ ? zones_->binAt(direction) : 0];
-}
-
-void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, Records& records,
+void DiffuseGlances::addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record,
                               Found& found) const {
   std::optional<Irradiance> last;
   std::vector<Joined> all;
   Random random = randomOf(set, GlanceStream::joins);
+  const SpectralSampling* const sampling = prepared_.options().sampling;
   joins.draw(random, [&](const VisibleVertex& v, double share, const V3d& direction, double distance) {
     const Coefficient passed = surfaces_.passing(set.point(), v.vertex.point(), kInSpace);
     const Irradiance part = joins.partOf(v, share, direction, distance) * passed;
-    const SpectralSampling* const sampling = prepared_.options().sampling;
     found.moments.add(direction, part, sampling);
     if (!neighbours_) return;
-    recordFor(direction, records).add(v.vertex.batch, part, 1 - share);
-    all.push_back({part, v.vertex.batch, 1 - share});
+    record.add(v.vertex.batch, part, 1 - share);
+    all.push_back({direction, part, v.vertex.batch, 1 - share});
     // Successive vertices are close together, so that the difference of their contributions estimates the
     // variance due to choosing vertices at random.
     if (last) {
       const Variance variance = Variance::of(part - *last, sampling) * (.5 * (1 - share));
       found.variance += variance;
-      if (zones_) found.ofZones.add(direction, 0, variance);
+      found.ofKernels.add(direction, variance);
     }
     last = part;
   });
-  if (neighbours_) found.shared = evened(joins, all);
+  if (!neighbours_) return;
+  found.shared = evened(joins, all);
+  found.sharedByKernel = sharedByKernel(joins, all);
+}
+
+std::vector<SharedError> DiffuseGlances::sharedByKernel(const Joins& joins,
+                                                        std::span<const Joined> all) const {
+  VertexLight::Record none;
+  none.sampling = prepared_.options().sampling;
+  std::vector<VertexLight::Record> records(kernels_.count(), none);
+  const size_t zones = kernels_.zoneCount();
+  std::vector<Joined> dark(all.begin(), all.end());
+  for (Joined& one : dark) one.part = Irradiance();
+  std::vector<std::vector<Joined>> ofQuantities(kernels_.quantities.any() ? size_t{Kernels::kQuantities} : 0);
+  for (size_t i = 0; i < ofQuantities.size(); ++i)
+    if (kernels_.quantities[i]) ofQuantities[i] = dark;
+  for (size_t i = 0; i < all.size(); ++i)
+    kernels_.weigh(all[i].direction, [&](size_t kernel, double weight) {
+      const Irradiance part = all[i].part * weight;
+      records[kernel].add(all[i].batch, part, all[i].notChosen);
+      if (kernel >= zones) ofQuantities[kernel - zones][i].part = part;
+    });
+  std::vector<SharedError> errors;
+  for (size_t i = 0; i < records.size(); ++i) {
+    errors.push_back(sharedError(records[i]));
+    if (i >= zones) errors[i].add(evened(joins, ofQuantities[i - zones]), 1);
+  }
+  return errors;
 }
 
 // Corrects the shared error of all joins to the error with the expected number of joins in each batch. The

@@ -37,15 +37,15 @@ class DiffuseGlances {
 
   // The light found by the glances and joins of one set at its point.
   struct Found {
-    explicit Found(const DirectionBins* zones = nullptr, const std::optional<V3d>& gaze = {})
-        : moments(zones, gaze), ofZones(zones) {}
+    explicit Found(const Kernels& kernels = {}, const std::optional<V3d>& gaze = {})
+        : moments(kernels.zones, gaze), ofKernels(kernels) {}
     Moments moments;     // of the light
     Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are requested
     SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are requested
     size_t lit = 0;      // glances that found light
-    // By zone (-Sz): variance and shared error; empty without zones, or if errors are not requested.
-    ZoneVariances ofZones;
-    std::vector<SharedError> sharedByZone;
+    // Variance and shared error by zone (-Sz) and quantity; empty without any, or if no errors are requested.
+    KernelVariances ofKernels;
+    std::vector<SharedError> sharedByKernel;
   };
   // tracer: for the light beyond portals.
   Found at(const SetAtPoint& set, PathTracer& tracer) const;
@@ -72,16 +72,15 @@ class DiffuseGlances {
     VertexLight::Scratch scratch{};
     const OutdoorRadiance* outdoors = nullptr;
   };
-  // One record for each zone and one for directions in no zone; a single one without zones.
-  using Records = std::vector<VertexLight::Record>;
-  VertexLight::Record& recordFor(const V3d& direction, Records& records) const;
   struct Joined {
+    V3d direction;
     Irradiance part;
     uint8_t batch;
     double notChosen;  // 1 minus the probability of the vertex
   };
   SharedError evened(const Joins& joins, std::span<const Joined> all) const;
-  void addJoins(const SetAtPoint& set, const Joins& joins, Records& records, Found& found) const;
+  std::vector<SharedError> sharedByKernel(const Joins& joins, std::span<const Joined> all) const;
+  void addJoins(const SetAtPoint& set, const Joins& joins, VertexLight::Record& record, Found& found) const;
   Radiance glance(const V3d& point, const V3d& direction, Glancing& by) const;
 
   const PreparedScene& prepared_;
@@ -89,6 +88,7 @@ class DiffuseGlances {
   LightPools lights_;
   std::vector<V3d> glances_;
   std::shared_ptr<const DirectionBins> zones_;  // null: light is not divided
+  Kernels kernels_;                             // these zones, and the quantities that have errors
   std::optional<Neighbours> neighbours_;        // empty unless standard errors are requested
   double joins_;                                // expected number of joins at a point
 };

@@ -13,6 +13,8 @@ BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampli
   base.zones = options.bins;
   if (!base.zones && options.zones > 0)
     base.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
+  base.kernels = {base.zones.get(), standardErrors ? options.quantityErrors : Kernels::Some(),
+                  options.facing()};
   const bool equal = options.weights == Weights::homogeneous;
   if (equal) base.solidAngles.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
   if (equal && !standardErrors && !options.verify) return base;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "points/error_estimate.h"
+#include "points/kernels.h"
 #include "points/sphere_options.h"
 #include "sphere/direction_bins.h"
 #include "sphere/voronoi.h"
@@ -17,6 +18,7 @@ struct BaseSet {
   std::optional<Neighbours> neighbours;          // empty unless standard errors are requested
   const SpectralSampling* sampling;              // the run's: RayOptions::sampling
   std::shared_ptr<const DirectionBins> zones{};  // zones of -Sz or bins; null: not requested
+  Kernels kernels{};                             // these, and the quantities that have standard errors
 };
 
 // Makes -Sn directions, rotated by -Sr. With -Sw h their solid angles are equal, otherwise those of their

@@ -143,16 +143,33 @@ Variance varianceWith(const SharedError& error, Variance own, const SpectralSamp
   return {combined(own.channels, spread.channels, larger), larger(own.brightness, spread.brightness)};
 }
 
-void ZoneVariances::add(const V3d& direction, double cell, const Variance& variance) {
-  zones->divide(direction, cell, [&](size_t zone, double share) { all[zone] += variance * (share * share); });
+void KernelVariances::add(const V3d& direction, const Variance& variance) {
+  kernels.weigh(direction, [&](size_t i, double weight) { all[i] += variance * (weight * weight); });
 }
 
-void ZoneVariances::add(const ZoneVariances& other, double factor) {
+void KernelVariances::addToZones(const V3d& direction, double cell, const Variance& variance) {
+  if (kernels.zones)
+    kernels.zones->divide(direction, cell,
+                          [&](size_t zone, double share) { all[zone] += variance * (share * share); });
+}
+
+std::vector<DirectionSample> weighted(std::span<const DirectionSample> samples, const Kernels& kernels,
+                                      size_t quantity) {
+  std::vector<DirectionSample> all(samples.begin(), samples.end());
+  for (DirectionSample& s : all) {
+    const double weight = kernels.weight(quantity, s.direction);
+    s.value *= weight;
+    s.glanced *= weight;
+  }
+  return all;
+}
+
+void KernelVariances::add(const KernelVariances& other, double factor) {
   for (size_t i = 0; i < other.all.size(); ++i) all[i] += other.all[i] * factor;
 }
 
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& n,
-                      const SpectralSampling* sampling, ZoneVariances* to) {
+                      const SpectralSampling* sampling, KernelVariances* to) {
   std::vector<Radiance> values(samples.size());
   std::ranges::transform(samples, values.begin(), followed);
   const Differences once = differences(values, samples, n), twice = differences(once.values, samples, n);
@@ -165,13 +182,13 @@ Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours
         Variance::of(irradianceFrom((second ? twice : once).values[i], samples[i].solidAngle), sampling) *
         ((second ? ownPartOfSecond(m) : m / (m + 1)) * (apart ? 1 : tuning::ErrorEstimate::kEvenSet));
     sum += part;
-    if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
+    if (to) to->addToZones(samples[i].direction, samples[i].solidAngle, part);
   }
   return sum;
 }
 
 Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
-                         const SpectralSampling* sampling, ZoneVariances* to) {
+                         const SpectralSampling* sampling, KernelVariances* to) {
   std::vector<Radiance> values(samples.size());
   std::ranges::transform(samples, values.begin(), followed);
   const Differences once = differences(values, samples, latticeNeighbours(samples.size(), shift));
@@ -183,13 +200,13 @@ Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::
     const Variance part = Variance::of(irradianceFrom(differs, samples[i].solidAngle), sampling) *
                           (m > 0 ? m / (m + 1) * tuning::ErrorEstimate::kEvenSet : 1);
     sum += part;
-    if (to) to->add(samples[i].direction, samples[i].solidAngle, part);
+    if (to) to->addToZones(samples[i].direction, samples[i].solidAngle, part);
   }
   return sum;
 }
 
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to) {
+                        KernelVariances* to) {
   const double n = static_cast<double>(samples.size());
   Irradiance sum;
   Variance squares;
@@ -199,7 +216,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
     squares += Variance::of(part, sampling);
   }
   if (samples.size() < 2) {
-    if (to && !samples.empty()) to->add(samples[0].direction, samples[0].solidAngle, squares);
+    if (to && !samples.empty()) to->addToZones(samples[0].direction, samples[0].solidAngle, squares);
     return squares;
   }
   // Factor by which even spreading reduces the variance. If an edge crosses the region, only the cells on the
@@ -209,7 +226,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
   const double even = 1 / (1 + std::sqrt(sharing(samples, sampling)) / tuning::ErrorEstimate::kEvenRun);
   for (const DirectionSample& s : samples)
     if (to)
-      to->add(
+      to->addToZones(
           s.direction, s.solidAngle,
           Variance::of(irradianceFrom(followed(s), s.solidAngle) - sum / n, sampling) * (n / (n - 1) * even));
   squares += Variance::of(sum, sampling) * (-1 / n);
@@ -217,7 +234,7 @@ Variance spreadVariance(std::span<const DirectionSample> samples, const Spectral
 }
 
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
-                      const SpectralSampling* sampling, ZoneVariances* to) {
+                      const SpectralSampling* sampling, KernelVariances* to) {
   Radiance sum;
   int count = 0;
   for (const DirectionSample& s : base) {
@@ -229,12 +246,12 @@ Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSa
   const Radiance around = count == 0 ? Radiance() : sum / count;
   const Variance variance =
       Variance::of(irradianceFrom(followed(sample) - around, sample.solidAngle), sampling) * own;
-  if (to) to->add(sample.direction, sample.solidAngle, variance);
+  if (to) to->addToZones(sample.direction, sample.solidAngle, variance);
   return variance;
 }
 
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to) {
+                        KernelVariances* to) {
   struct Found {
     Irradiance sum;
     int count = 0;
@@ -253,7 +270,7 @@ Variance unseenVariance(std::span<const DirectionSample> samples, const Spectral
     const Variance unseen =
         Variance::of(here.sum * (tuning::ErrorEstimate::kUnseen / (here.count + 1)), sampling);
     sum += unseen;
-    if (to) to->add(here.direction, 0, unseen);
+    if (to) to->addToZones(here.direction, 0, unseen);
   }
   return sum;
 }

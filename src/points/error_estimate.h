@@ -10,7 +10,7 @@
 
 #include "base/colorimetry.h"
 #include "points/direction_sample.h"
-#include "sphere/direction_bins.h"
+#include "points/kernels.h"
 
 namespace rsphere {
 
@@ -47,19 +47,30 @@ Variance sharedVariance(const SharedError& error, const SpectralSampling* sampli
 // spread of the batches (tuning::ErrorEstimate::kLeastShared).
 Variance varianceWith(const SharedError& error, Variance own, const SpectralSampling* sampling);
 
-// The variances of zones of directions (-Sz).
-struct ZoneVariances {
-  const DirectionBins* zones = nullptr;  // null: there are none
+// The variances of the zones (-Sz) and quantities that have standard errors of their own.
+struct KernelVariances {
+  Kernels kernels;
   std::vector<Variance> all;
 
-  explicit ZoneVariances(const DirectionBins* by = nullptr) : zones(by), all(by ? by->count() : 0) {}
-  // Adds the variance of one direction's contribution. cell: as for Moments::add().
-  void add(const V3d& direction, double cell, const Variance& variance);
-  void add(const ZoneVariances& other, double factor);
+  explicit KernelVariances(const Kernels& of = {}) : kernels(of), all(of.count()) {}
+  // Adds the variance of one direction's contribution to the mean, which is independent of all others.
+  void add(const V3d& direction, const Variance& variance);
+  // The same for zones alone. cell: as for Moments::add().
+  void addToZones(const V3d& direction, double cell, const Variance& variance);
+  // Adds varianceOf(quantity) to each quantity: the variance of the mean of samples that are weighted by it.
+  // Evenly spread directions integrate a radiance that does not vary without an error, but not what it is
+  // weighted by.
+  template <class VarianceOf>
+  void addQuantities(const VarianceOf& varianceOf) {
+    for (size_t i = 0; i < Kernels::kQuantities; ++i)
+      if (kernels.quantities[i]) all[kernels.zoneCount() + i] += varianceOf(i);
+  }
+  void add(const KernelVariances& other, double factor);
 };
 
-// Null if there are no zones.
-inline ZoneVariances* zonesOf(ZoneVariances& variances) { return variances.zones ? &variances : nullptr; }
+// The samples with their radiance times the weight of a quantity.
+std::vector<DirectionSample> weighted(std::span<const DirectionSample> samples, const Kernels& kernels,
+                                      size_t quantity);
 
 // The neighbours of each direction. Those of direction i are neighbour[first[i]] to neighbour[first[i + 1] -
 // 1].
@@ -76,30 +87,30 @@ struct Neighbours {
 // in a chrome column. Only neighbours in one region are compared, if there are any: the edge of a region adds
 // no error, because cells end there. Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
-                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+                      const SpectralSampling* sampling, KernelVariances* to = nullptr);
 
 // evenVariance() for dynamic directions to one target, whose places in it are the first points of evenly().
 // Each is compared with the nearest ones. An edge, such as that of a window in a mirror, then counts only
 // where it passes between neighbours. Slats that are finer than the distance of neighbours count as noise.
 Variance latticeVariance(std::span<const DirectionSample> samples, const Imath::V2d& shift,
-                         const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+                         const SpectralSampling* sampling, KernelVariances* to = nullptr);
 
 // evenVariance() for dynamic directions to several targets that show parts of one image of a source. The
 // result is the variance of independent directions, reduced because they are evenly spread. It is not reduced
 // where few directions find most of the light, for example of a lamp that is mirrored twice.
 Variance spreadVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to = nullptr);
+                        KernelVariances* to = nullptr);
 
 // evenVariance() for a target with a single dynamic direction. The direction is compared with the base
 // directions in its region; if there are none, its whole contribution is the error.
 Variance loneVariance(const DirectionSample& sample, std::span<const DirectionSample> base,
-                      const SpectralSampling* sampling, ZoneVariances* to = nullptr);
+                      const SpectralSampling* sampling, KernelVariances* to = nullptr);
 
 // Variance due to occluders that no direction has hit, in regions other than 0. In each region, an occluder
 // is assumed that hides half of the solid angle that one more direction would represent. Otherwise the stated
 // error of the light of an opening would be 0 whenever its few directions see an even sky. The assumed
 // occluder also hides light that was found by glances.
 Variance unseenVariance(std::span<const DirectionSample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to = nullptr);
+                        KernelVariances* to = nullptr);
 
 }  // namespace rsphere

@@ -32,13 +32,14 @@ struct PointAnswer {
   Irradiance hemisphericalIrradiance() const { return scalarIrradiance + (facing[4] - facing[5]) / 4.; }
   // z  mean radiances of the zones (-Sz), and Z: their standard errors
   std::vector<Radiance> zones;
-  struct ZoneError {
+  struct OwnError {
     Radiance channels;
     double brightness = 0;
   };
-  std::vector<ZoneError> zoneErrors;  // empty unless standard errors are wanted
-  bool isDark = false;                // almost no direction found light, or -Sa stopped because there was so
-                                      // little
+  std::vector<OwnError> zoneErrors;      // empty unless standard errors are wanted
+  std::vector<OwnError> quantityErrors;  // W/m2, by Kernels::Quantity; empty unless wanted
+  bool isDark = false;       // almost no direction found light, or -Sa stopped because there was so
+                             // little
   double relativeError = 0;  // brightnessError relative to the mean's brightness, or to the floor of -Sa
   bool reached = true;       // whether the standard error requested with -Sa was reached
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/constants.h"
+#include "points/kernels.h"
+
 namespace rsphere {
 namespace {
 
@@ -12,13 +15,25 @@ using Add = const PointQuantity::Add&;
 using A = const PointAnswer&;
 using O = const SphereOptions&;
 
+template <std::vector<PointAnswer::OwnError> PointAnswer::*errors>
+void addAll(A a, O, Add add) {
+  for (const PointAnswer::OwnError& error : a.*errors) add(error.channels.color, error.brightness);
+}
+
+template <Kernels::Quantity first, size_t count = 1>
+void addSome(A a, O, Add add) {
+  for (size_t i = first; i < first + count; ++i)
+    add(a.quantityErrors[i].channels.color, a.quantityErrors[i].brightness);
+}
+
 // F and L: see the manual.
 constexpr PointQuantity kQuantities[] = {
     {'o', "point", Form::place, 3, "the point", ""},
     {'v', "mean_radiance", Form::colors, 1, "mean radiance: F / (4 pi)", "W/sr/m2",
      [](A a, O, Add add) { add(a.mean.color, 0); }},
-    {'e', "standard_error", Form::errors, 1, "standard error of v, estimated (-pRGB or -pY)", "W/sr/m2",
-     [](A a, O, Add add) { add(a.standardError.color, a.brightnessError); }},
+    {'e', "standard_error", Form::errors, 1,
+     "standard error of the quantity before it, estimated\n(-pRGB or -pY); of v after none, o and k", "",
+     [](A a, O, Add add) { add(a.standardError.color, a.brightnessError); }, 'v'},
     {'E', "scalar_irradiance", Form::colors, 1, "mean spherical (scalar) irradiance: F / 4", "W/m2",
      [](A a, O, Add add) { add(a.scalarIrradiance.color, 0); }},
     {'C', "cylindrical_irradiance", Form::colors, 1,
@@ -45,15 +60,39 @@ constexpr PointQuantity kQuantities[] = {
        for (const Radiance& zone : a.zones) add(zone.color, 0);
      }},
     {'Z', "zone_errors", Form::errors, PointQuantity::kOfZones,
-     "standard errors of z, estimated (-pRGB or -pY)", "W/sr/m2",
-     [](A a, O, Add add) {
-       for (const auto& error : a.zoneErrors) add(error.channels.color, error.brightness);
-     }},
+     "standard errors of z, estimated (-pRGB or -pY)", "W/sr/m2", addAll<&PointAnswer::zoneErrors>, 'z'},
+    {'e', "standard_error", Form::errors, PointQuantity::kOfZones, "", "", addAll<&PointAnswer::zoneErrors>,
+     'z'},
+    {'e', "standard_error", Form::errors, 1, "", "",
+     [](A a, O, Add add) { add(a.standardError.color * kPi, a.brightnessError * kPi); }, 'E'},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::cylindrical>, 'C'},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::semicylindrical>, 'S'},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::hemispherical>, 'h'},
+    {'e', "standard_error", Form::errors, 6, "", "", addSome<Kernels::faces, 6>, 'H'},
+    {'e', "standard_error", Form::vectorErrors, 3, "", "", nullptr, 'u'},
 };
+
+// The error of the quantity with this letter; null: it has none.
+const PointQuantity* errorOf(char letter) {
+  const auto* const found = std::find_if(std::begin(kQuantities), std::end(kQuantities),
+                                         [&](const auto& q) { return q.letter == 'e' && q.of == letter; });
+  return found == std::end(kQuantities) ? nullptr : found;
+}
 
 }  // namespace
 
 std::span<const PointQuantity> pointQuantities() { return kQuantities; }
+
+std::vector<const PointQuantity*> pointQuantities(std::string_view letters) {
+  std::vector<const PointQuantity*> all;
+  char before = 'v';
+  for (const char letter : letters) {
+    const PointQuantity* const error = letter == 'e' ? errorOf(before) : nullptr;
+    all.push_back(error ? error : pointQuantity(letter));
+    if (letter != 'e') before = letter;
+  }
+  return all;
+}
 
 const PointQuantity* pointQuantity(char letter) {
   const auto* const found = std::find_if(std::begin(kQuantities), std::end(kQuantities),
@@ -64,8 +103,21 @@ const PointQuantity* pointQuantity(char letter) {
 bool haveErrors(std::string_view letters) {
   return std::any_of(letters.begin(), letters.end(), [](char letter) {
     const PointQuantity* const quantity = pointQuantity(letter);
-    return quantity && quantity->form == Form::errors;
+    return quantity && quantity->isError();
   });
+}
+
+Kernels::Some ownErrors(std::string_view letters) {
+  Kernels::Some some;
+  for (const PointQuantity* const q : pointQuantities(letters)) {
+    if (!q || !q->isError()) continue;
+    if (q->of == 'C') some.set(Kernels::cylindrical);
+    if (q->of == 'S') some.set(Kernels::semicylindrical);
+    if (q->of == 'h') some.set(Kernels::hemispherical);
+    for (size_t i = 0; q->of == 'H' && i < 6; ++i) some.set(Kernels::faces + i);
+    for (size_t i = 0; q->of == 'u' && i < 3; ++i) some.set(Kernels::vector + i);
+  }
+  return some;
 }
 
 }  // namespace rsphere

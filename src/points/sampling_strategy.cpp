@@ -16,6 +16,14 @@ std::vector<V3d> SetAtPoint::turned(std::span<const V3d> directions) const {
   return rotatedDirections(directions, mixBits(seed_));
 }
 
+void SampledSet::setVariance(const Neighbours& neighbours, const BaseSet& base) {
+  ofKernels = KernelVariances(base.kernels);
+  variance = evenVariance(samples, neighbours, base.sampling, &ofKernels);
+  ofKernels.addQuantities([&](size_t quantity) {
+    return evenVariance(weighted(samples, base.kernels, quantity), neighbours, base.sampling);
+  });
+}
+
 Moments SampledSet::moments(const BaseSet& base, const std::optional<V3d>& gaze) const {
   Moments moments(base.zones.get(), gaze);
   for (const DirectionSample& s : samples)

@@ -43,14 +43,17 @@ class SetAtPoint {
 // The directions of one set, traced and weighted.
 struct SampledSet {
   std::vector<DirectionSample> samples;
-  std::vector<TracedRay> rays;            // of the samples, in the same order; kept with -Sd only
-  Moments excess;                         // light found by glances, minus the light of glances along samples
-                                          // (DirectionSample::glanced); 0 without glances
-  Variance variance;                      // of moments().total; 0 unless standard errors are wanted
-  SharedError shared;                     // error due to light vertices, not in `variance`
-  ZoneVariances ofZones;                  // `variance` by zone
-  std::vector<SharedError> sharedByZone;  // `shared` by zone; empty without zones
-  size_t litGlances = 0;                  // glances that found light (diffuse_glances.h)
+  std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
+  Moments excess;               // light found by glances, minus the light of glances along samples
+                                // (DirectionSample::glanced); 0 without glances
+  Variance variance;            // of moments().total; 0 unless standard errors are wanted
+  SharedError shared;           // error due to light vertices, not in `variance`
+  KernelVariances ofKernels;    // `variance` by zone and quantity (kernels.h)
+  std::vector<SharedError> sharedByKernel;  // `shared` likewise; empty without any
+  size_t litGlances = 0;                    // glances that found light (diffuse_glances.h)
+
+  // Sets the variance, and those of zones and quantities, from the differences between neighbouring samples.
+  void setVariance(const Neighbours& neighbours, const BaseSet& base);
 
   // The set's estimate of the integrals over all directions. gaze: that of its SetAtPoint.
   Moments moments(const BaseSet& base, const std::optional<V3d>& gaze = {}) const;

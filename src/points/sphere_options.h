@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "glare/glare_options.h"
-#include "sphere/direction_bins.h"
+#include "points/kernels.h"
 
 namespace rsphere {
 
@@ -32,6 +32,7 @@ struct SphereOptions {
   std::shared_ptr<const DirectionBins> bins{};  // from these expressions; their number is `zones`
   double azimuth = 0;                           // -So  degrees, from x towards y
   bool verify = false;                          // -Sv
+  Kernels::Some quantityErrors{};               // quantities other than the mean that have standard errors
   GlareOptions glare;                           // -Su -Sub -Sut
 
   // The default numbers of light paths and of rays of patches, which all points share, suffice down to this

@@ -48,9 +48,10 @@ constexpr const char* kSphere = R"(Computes what passes through points from all 
 Returns an object with an array for each letter of outputs ("veECHuk" if not given), and None for others. F is
 the integral of radiance over 4 pi sr.
 v mean (n, 3): F/(4 pi) (W/sr/m2), e mean_standard_error: that of mean, estimated,
-E scalar_irradiance: F/4 (W/m2; its standard error is pi times that of mean), C cylindrical_irradiance,
-S semicylindrical_irradiance (towards So degrees), h hemispherical_irradiance,
-H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions, o point.
+E scalar_irradiance: F/4 (W/m2), C cylindrical_irradiance, S semicylindrical_irradiance (towards So degrees),
+h hemispherical_irradiance, H face_irradiance (n, 6, 3): +x -x +y -y +z -z, u light_vector, k directions,
+o point. An e after one of the letters E C S h H u is the standard error of that quantity: with outputs
+"CeHe", cylindrical_irradiance_standard_error and face_irradiance_standard_error.
 With Sp=True, what each modifier of a light source gives: contributors are their names, and arrays but
 directions and point have a second axis for them. With bins=N: bins (n, N, 3), mean radiances of zones of
 equal solid angle, bins_standard_error, and bins_solid_angle (N); zone_middles(N) has the directions of the

@@ -162,6 +162,15 @@ py::object arraysOf(PointAnswers&& a) {
   arrays["hemispherical_irradiance"] = arrayOf(std::move(a.hemisphericalIrradiance), a.size, {parts});
   arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, {parts, 6});
   arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
+  const std::pair<const char*, Quantity*> errors[] = {
+      {"scalar_irradiance_standard_error", &a.scalarIrradianceStandardError},
+      {"cylindrical_irradiance_standard_error", &a.cylindricalIrradianceStandardError},
+      {"semicylindrical_irradiance_standard_error", &a.semicylindricalIrradianceStandardError},
+      {"hemispherical_irradiance_standard_error", &a.hemisphericalIrradianceStandardError},
+      {"light_vector_standard_error", &a.lightVectorStandardError}};
+  for (const auto& [name, quantity] : errors) arrays[name] = arrayOf(std::move(*quantity), a.size, {parts});
+  arrays["face_irradiance_standard_error"] =
+      arrayOf(std::move(a.faceIrradianceStandardError), a.size, {parts, 6});
   arrays["bins"] = arrayOf(std::move(a.zones), a.size, {parts, a.zoneCount});
   arrays["bins_standard_error"] = arrayOf(std::move(a.zonesStandardError), a.size, {parts, a.zoneCount});
   arrays["bins_solid_angle"] =

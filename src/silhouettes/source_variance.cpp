@@ -8,7 +8,7 @@
 namespace rsphere {
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
-                       ZoneVariances* to) {
+                       KernelVariances* to) {
   // The samples are ordered by rows of the grid. A pair is two neighbours in a row, or in adjacent rows if
   // these are as long as the first row.
   Variance sum, edges;
@@ -38,12 +38,12 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
                     static_cast<double>(pairs));
   if (to)
     for (const auto& s : samples)
-      to->add(s.direction.direction, 0, edges * (1 / static_cast<double>(samples.size())));
+      to->addToZones(s.direction.direction, 0, edges * (1 / static_cast<double>(samples.size())));
   return edges;
 }
 
 Variance choiceVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
-                        ZoneVariances* to) {
+                        KernelVariances* to) {
   struct Chosen {
     Irradiance found;  // light of the image, weighted to represent images that were not sampled
     double chance;
@@ -63,7 +63,7 @@ Variance choiceVariance(std::span<const SeenSources::Sample> samples, const Spec
     const Variance part = Variance::of(chosen[i].found - chosen[i - 1].found, sampling) *
                           ((.5 - .25 * (chosen[i].chance + chosen[i - 1].chance)) * (n / (n - 1)));
     sum += part;
-    if (to) to->add(chosen[i].direction, 0, part);
+    if (to) to->addToZones(chosen[i].direction, 0, part);
   }
   return sum;
 }

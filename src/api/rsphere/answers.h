@@ -59,7 +59,7 @@ struct PointAnswers {
   // The modifiers of goals, or of light sources with -Sp; empty: quantities are totals.
   std::vector<std::string> contributors;
   Quantity mean;                   // v  mean radiance F/(4 pi) (W/sr/m2)
-  Quantity meanStandardError;      // e estimated standard error of mean; times pi, of scalarIrradiance
+  Quantity meanStandardError;      // e  estimated standard error of mean: e first, or after v
   Quantity scalarIrradiance;       // E  F/4 (W/m2)
   Quantity cylindricalIrradiance;  // C  about the z axis: 1/pi times the integral of L sin(angle to z) (W/m2)
   Quantity semicylindricalIrradiance;  // S  of the curved surface of a half cylinder towards -So (W/m2)
@@ -74,6 +74,10 @@ struct PointAnswers {
   size_t zoneCount = 0;                 // the number of zones or bins
   std::vector<double> zoneSolidAngles;  // solid angle of each, sr
   Quantity point;                       // o
+  // e after the letter of the quantity: its estimated standard error, in its columns
+  Quantity scalarIrradianceStandardError, cylindricalIrradianceStandardError;
+  Quantity semicylindricalIrradianceStandardError, hemisphericalIrradianceStandardError;
+  Quantity faceIrradianceStandardError, lightVectorStandardError;
 };
 
 // A glare source, as seen by an eye.

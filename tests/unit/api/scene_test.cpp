@@ -162,6 +162,22 @@ TEST(Scene, EveryLetterOfAPointHasItsQuantity) {
       found += q->columns > 0;
     EXPECT_EQ(found, 1) << letter;
   }
+  // e is the error of the quantity before it, in as many columns.
+  options.outputs = "EeCeSeheHeueze";
+  const rsphere::PointAnswers a = scene.sphere({&point, 1}, options);
+  const std::pair<const Quantity*, const Quantity*> errors[] = {
+      {&a.scalarIrradiance, &a.scalarIrradianceStandardError},
+      {&a.cylindricalIrradiance, &a.cylindricalIrradianceStandardError},
+      {&a.semicylindricalIrradiance, &a.semicylindricalIrradianceStandardError},
+      {&a.hemisphericalIrradiance, &a.hemisphericalIrradianceStandardError},
+      {&a.faceIrradiance, &a.faceIrradianceStandardError},
+      {&a.lightVector, &a.lightVectorStandardError},
+      {&a.zones, &a.zonesStandardError}};
+  for (const auto& [quantity, error] : errors) {
+    EXPECT_GT(error->columns, 0);
+    EXPECT_EQ(error->columns, quantity->columns);
+  }
+  EXPECT_EQ(a.meanStandardError.columns, 0);
 }
 
 TEST(Scene, TakesAllOptionsOfTheCommand) {

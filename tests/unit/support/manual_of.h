@@ -148,6 +148,7 @@ inline std::string quantities() {
   constexpr size_t kWidth = 57;  // columns before the unit
   std::string text;
   for (const PointQuantity& quantity : pointQuantities()) {
+    if (quantity.definition.empty()) continue;  // another meaning of e
     const bool isColor = quantity.each != nullptr;
     const std::string columns = quantity.values == PointQuantity::kOfZones
                                     ? "3N"
