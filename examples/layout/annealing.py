@@ -1,7 +1,7 @@
 """Layouts tried one after the other: simulated annealing, for comparison with the integer program."""
 import numpy as np
 
-from search import too_near
+from rsphere.layout.search import too_near
 
 PENALTY = 10.0  # watts of the largest luminaire that a goal missed altogether costs
 COOLING = (0.5, 0.01)  # the temperature at the begin and at the end, in watts of the largest luminaire

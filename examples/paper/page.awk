@@ -47,7 +47,7 @@ END {
   print "on `examples/openplan` with 1 to 100 mirror spheres, with the errors, which they could not measure. Their environment is"
   print "described in words only (a closed open-plan space with furniture, goals on one desktop near the middle, 1 to 100 small"
   print "very reflective spheres near the ceiling); ours follows this description. The purpose of their technique, finding the best"
-  print "places for luminaires, is achieved in this room by [examples/layout](../layout/README.md#what-a-layout-costs-to-find)."
+  print "places for luminaires, is achieved in this room by [rsphere-layout](../layout/README.md#what-a-layout-costs-to-find)."
   print ""
   print "Made by `examples/paper/run FOLDER` in " seconds " s on " date ": " machine ";"
   print version ", " compiler "."

@@ -3,15 +3,6 @@
 
 namespace rsphere::python {
 
-constexpr const char* kModule = R"(Light in scenes of RADIANCE's format: along rays and at points.
-
-    scene = rsphere.Scene(["sky.rad", "room.rad"])
-    answers = scene.sphere([[4, 2.6, 1.2]], ambient_bounces=5)
-    rsphere.photometric(answers.scalar_irradiance)  # lx
-
-Calls use all cores, release the lock of the interpreter, and end with KeyboardInterrupt on Ctrl-C. Answers do
-not depend on the number of threads. Warnings about the scene are UserWarning.)";
-
 constexpr const char* kScene = R"(A scene, read from files.
 
 files: one octree, or scene files in their order, or '!command'; one path or a list.

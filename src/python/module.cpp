@@ -1,4 +1,4 @@
-// The Python module rsphere: converts from and to NumPy arrays; uses only the public library.
+// The compiled part of the Python package rsphere: converts from and to NumPy arrays on the public library.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -391,8 +391,8 @@ void addError(py::module_& m) {
 
 }  // namespace
 
-PYBIND11_MODULE(rsphere, m) {
-  m.doc() = kModule;
+PYBIND11_MODULE(_rsphere, m) {
+  m.attr("__name__") = "rsphere";  // where users find what is defined below
   m.attr("__version__") = version();
   addError(m);
   const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
@@ -418,6 +418,7 @@ PYBIND11_MODULE(rsphere, m) {
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");
   m.attr("LUMENS_PER_WATT") = kLumensPerWatt;
+  m.attr("__name__") = "rsphere._rsphere";
 }
 
 }  // namespace rsphere::python

@@ -1,21 +1,30 @@
-"""Scripts of Python run in the process of a test: to load NumPy and SciPy takes longer than to find a fault."""
+"""Commands of the package run in the process of a test: to load NumPy and SciPy takes longer than to find a fault."""
 import contextlib
 import io
+import os
 import runpy
 import subprocess
 import sys
 import unittest.mock
 
 
+PROGRAMS = os.environ["PROGRAMS"]
+
+
+def built(name):
+    """The path of a command of the build."""
+    return os.path.join(PROGRAMS, name)
+
+
 def run_here(words):
-    """Runs the script words[0] as subprocess.run() would, its text captured."""
+    """Runs the command words[0] as subprocess.run() would, its text captured."""
     with contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO())) as out, contextlib.redirect_stderr(io.StringIO()) as err:
         status = 0
         try:
-            with unittest.mock.patch.object(sys, "argv", words):
+            with unittest.mock.patch.multiple(sys, argv=words, path=["", *sys.path]):
                 runpy.run_path(words[0], run_name="__main__")
         except SystemExit as end:
-            status = end.code
+            status = end.code or 0
             if isinstance(status, str):
                 err.write(status + "\n")
                 status = 1

@@ -1,13 +1,12 @@
-"""examples/annual: faults of weather files and coefficients are one line with file and line, and missing hours are left out."""
+"""rsphere-annual: faults of weather files and coefficients are one line with file and line, and missing hours are left out."""
 import os
 import tempfile
 import unittest
 
 import numpy as np
 
-from run_here import run_here
+from run_here import built, run_here
 
-ANNUAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/annual/annual")
 WEA = "place X\nlatitude 50\nlongitude -10\ntime_zone -15\nsite_elevation 100\nweather_data_file_units 1\n"
 DAY = [f"6 1 {hour + 0.5:g} {300 * (6 < hour < 18)} {150 * (6 < hour < 18)}" for hour in range(24)]
 EPW = "LOCATION,PLACE,-,X,src,1,50.0,10.0,1.0,100" + "\nX" * 7 + "\n"
@@ -34,7 +33,7 @@ class Annual(unittest.TestCase):
             before = os.getcwd()
             os.chdir(folder)
             try:
-                run = run_here([ANNUAL, name, "co.f"])
+                run = run_here([built("rsphere-annual"), "--weather", name, "--coefficients", "co.f"])
             finally:
                 os.chdir(before)
         return run.returncode, run.stdout, run.stderr
@@ -59,7 +58,7 @@ class Annual(unittest.TestCase):
             ("6 1 1", "an hour is month, day, hour"),
         ):  # fmt: skip
             with self.subTest(row):
-                self.refuse(f"annual: w.wea:7: {said}", WEA + row)
+                self.refuse(f"rsphere-annual: fatal - w.wea:7: {said}", WEA + row)
 
     def test_headers_of_wea_are_checked(self):
         self.refuse("w.wea:2: the latitude must be from -90 to 90", WEA.replace("50", "200") + DAY[12])

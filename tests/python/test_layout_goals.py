@@ -1,6 +1,6 @@
-"""Goals of examples/layout: each fault is one line with file and line, and nothing else happens.
+"""Goals of rsphere-layout: each fault is one line with file and line, and nothing else happens.
 
-PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the module rsphere.
+PROGRAMS in the environment is the folder of the programs and commands; PYTHONPATH has the folder of the package rsphere.
 """
 import os
 import pty
@@ -15,7 +15,7 @@ import xml.dom.minidom
 
 import numpy as np
 
-from run_here import run_here
+from run_here import built, run_here
 
 TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LAYOUT = os.path.join(TESTS, "../examples/layout")
@@ -60,10 +60,10 @@ class Goals(unittest.TestCase):
             for path, text in (file, "\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies"))), (more, furniture):
                 with open(path, "w", encoding=encoding) as stream:
                     stream.write(text)
-            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, *([more] if furniture else []),
+            command = [built("rsphere-layout"), file, OFFICE, *([more] if furniture else []),
                        "-o", os.path.join(folder, "out"), "--no-plan", *options]
             if here:
-                return run_here(command[1:]), file
+                return run_here(command), file
             return subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False), file
 
     def test_good(self):
@@ -79,7 +79,7 @@ class Goals(unittest.TestCase):
         os.close(its)
         shown = os.read(mine, 65536).decode()
         os.close(mine)
-        self.assertRegex(shown, "\\r\033\\[KImportance at [0-9]+ places: 1 of 4\\r")
+        self.assertRegex(shown, "\\r\033\\[KImportance at [0-9]+ places: 1 of 4(, [0-9]+ s left)?\\r")
         self.assertRegex(shown, "\\r\033\\[KSearch, at most [0-9]+ s\\r")
         self.assertRegex(shown, "\\r\033\\[KLight traced forward to [0-9]+ points of desk1: 6 of 6")
         self.assertTrue(shown.endswith("\r\033[K"), shown)
@@ -103,7 +103,7 @@ class Goals(unittest.TestCase):
         run, _ = self.run_on([*GOOD, "eye me 5 3 9", "cylindrical me 50"])
         self.assertEqual(run.returncode, 2, run.stderr)
         for line in run.stderr.splitlines():
-            self.assertRegex(line, "^layout: warning - no importance reaches")
+            self.assertRegex(line, "^rsphere-layout: warning - no importance reaches")
 
     def run_curve(self, lines):
         with tempfile.TemporaryDirectory() as folder:
@@ -136,7 +136,7 @@ class Goals(unittest.TestCase):
                 run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]], here=True)
                 self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-                self.assertRegex(run.stderr, (re.escape(f"layout: {file}:{line}: ") if line else "layout: ") + ".*" + words)
+                self.assertRegex(run.stderr, re.escape("layout: fatal - " + (f"{file}:{line}: " if line else "")) + ".*" + words)
 
     def test_glare(self):
         """UGR as planned is that of rsphere -Su, for lamps ahead, beside, and half of which is behind the eye."""
@@ -200,8 +200,7 @@ class Goals(unittest.TestCase):
 
     def test_names_of_desks_keep_clear_of_luminaires(self):
         """The number of a spot was printed over "desk1" in the drawing."""
-        sys.path.insert(0, LAYOUT)
-        from page import free_corner
+        from rsphere.layout.page import free_corner
 
         desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
         self.assertEqual(free_corner(desk, "desk1", []), (94, 246))
@@ -217,7 +216,7 @@ class Goals(unittest.TestCase):
             file, out = os.path.join(folder, "goals.txt"), os.path.join(folder, "out")
             with open(file, "w", encoding="utf-8") as stream:
                 stream.write("\n".join(GOOD).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies")))
-            command = [sys.executable, os.path.join(LAYOUT, "layout"), file, OFFICE, "-o", out, "--no-plan", "-d", "65536"]
+            command = [built("rsphere-layout"), file, OFFICE, "-o", out, "--no-plan", "-d", "65536"]
             with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
                 while not os.path.isdir(out) and run.poll() is None:
                     time.sleep(0.02)

@@ -1,23 +1,20 @@
-"""Readers of IES and EULUMDAT files of examples/layout: faults with file and line, and luminaires as RADIANCE scenes."""
+"""Readers of IES and EULUMDAT files in rsphere.photometry: faults with file and line, and luminaires as RADIANCE scenes."""
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 
 import rsphere
+from rsphere.fault import Fault
+from rsphere.photometry import read_luminaire
+from run_here import built
 
-TESTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-LAYOUT = os.path.join(TESTS, "../examples/layout")
-sys.path.insert(0, LAYOUT)
-from fault import Fault  # noqa: E402
-from luminaire_file import read_luminaire  # noqa: E402
-
-PANEL = os.path.join(LAYOUT, "cases/panel.ies")
-DOWNLIGHT = os.path.join(LAYOUT, "cases/downlight.ies")
+CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
+PANEL = os.path.join(CASES, "panel.ies")
+DOWNLIGHT = os.path.join(CASES, "downlight.ies")
 
 # Light up and down from a box, symmetric about one plane, in feet, with factors.
 BOX = """IESNA:LM-63-2002
@@ -196,7 +193,7 @@ class Eulumdat(Files):
 
 class AsScene(Files):
     def made(self, file):
-        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), file, "-o", self.folder.name],
+        run = subprocess.run([built("rsphere-luminaire"), file, "-o", self.folder.name],
                              capture_output=True, text=True, check=False)
         self.assertEqual(run.stderr, "")
         return self.file(run.stdout, "lamp.rad")
@@ -246,16 +243,16 @@ class AsScene(Files):
         np.testing.assert_allclose(rsphere.photometric(found) * 64, 500, rtol=.02)
 
     def test_fault(self):
-        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), self.file("TILT=NONE\n1 x\n")],
+        run = subprocess.run([built("rsphere-luminaire"), self.file("TILT=NONE\n1 x\n")],
                              capture_output=True, text=True, check=False)
         self.assertEqual(run.returncode, 1)
-        self.assertRegex(run.stderr, r'\Aluminaire: .*lamp\.ies:2: the lumens of a lamp must be a number, not "x"\n\Z')
+        self.assertRegex(run.stderr, r'\Arsphere-luminaire: fatal - .*lamp\.ies:2: the lumens of a lamp must be a number, not "x"\n\Z')
         self.assertEqual(run.stdout, "")
 
     def test_makes_its_folder(self):
         """As layout does; a folder that was missing was a fault."""
         folder = os.path.join(self.folder.name, "new/lamps")
-        run = subprocess.run([sys.executable, os.path.join(LAYOUT, "luminaire"), PANEL, "-o", folder], capture_output=True, text=True, check=False)
+        run = subprocess.run([built("rsphere-luminaire"), PANEL, "-o", folder], capture_output=True, text=True, check=False)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertEqual(sorted(os.listdir(folder)), ["lamp.cal", "panel.dat"])
 

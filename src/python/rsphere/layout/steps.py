@@ -8,16 +8,17 @@ import time
 
 import numpy as np
 
-from built import write_lamps
-from design import read_design
-from fault import Fault, fault
-from forward import Forward, daylight_of
-from page import Page, drawing, table
-from progress import PROGRESS
-from room import program, read_polygons
-from search import search
-from transfer import Transfer
-from wanted import Light, answers, light_of, lit_cells, receiver_of, rows_of
+from ..command import program
+from ..fault import Fault, fault
+from ..progress import PROGRESS
+from .built import write_lamps
+from .design import read_design
+from .forward import Forward, daylight_of
+from .page import Page, drawing, table
+from .room import read_polygons
+from .search import search
+from .transfer import Transfer
+from .wanted import Light, answers, light_of, lit_cells, receiver_of, rows_of
 
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference

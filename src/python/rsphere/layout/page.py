@@ -3,7 +3,7 @@ from html import escape
 
 import numpy as np
 
-from built import outline
+from .built import outline
 
 STYLE = """
 :root { color-scheme: light dark; }

@@ -4,8 +4,8 @@ Each value is the mean of repeats with other random numbers; its standard error 
 """
 import numpy as np
 
-from progress import PROGRESS
-from wanted import Answer, cell_means, receiver_of, uniformity
+from ..progress import PROGRESS
+from .wanted import Answer, cell_means, receiver_of, uniformity
 
 REPEATS = 6
 BEYOND = 1e12  # cd/m2

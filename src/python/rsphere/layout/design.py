@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fault import Fault, fault, lines_of, number, whole
-from lamp_rad import UNITS, rotation, word
-from luminaire_file import read_luminaire
-from photometry import Photometry
-from room import cells_of, names_matching, polygons_named, surface_of
+from ..fault import Fault, fault, lines_of, number, whole
+from ..photometry.intensities import Photometry
+from ..photometry.lamp_rad import UNITS, rotation, word
+from ..photometry.luminaire_file import read_luminaire
+from .room import cells_of, names_matching, polygons_named, surface_of
 
 MOST_CANDIDATES = 20000
 FAR = 20  # times the size of the scene: what is farther away is in other units

@@ -1,15 +1,14 @@
 """The room: its polygons by name, and surfaces of goals with points on them."""
 import difflib
 import fnmatch
-import os
 import re
 import subprocess
 from dataclasses import dataclass
 
 import numpy as np
 
-from fault import Fault, fault
-from start import HERE
+from ..command import program
+from ..fault import Fault, fault
 
 LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
 FACE = re.compile(r"\.(1540|4620|6457|3267|5137|2310)\Z")  # behind the name of a box
@@ -56,14 +55,6 @@ class Surface:
         u, v = (x.ravel()[:, None] for x in np.meshgrid(part, part))
         corner, right, up = self.cells[:, :1], self.cells[:, 1:2] - self.cells[:, :1], self.cells[:, 3:] - self.cells[:, :1]
         return (corner + u * right + v * up).reshape(-1, 3)
-
-
-def program(name):
-    for folder in (os.environ.get("PROGRAMS"), os.path.join(HERE, "../../build/bin"), os.path.join(HERE, "../../../../../lib/rsphere/bin"),
-                   os.path.join(HERE, "../../../../../bin")):
-        if folder and os.access(os.path.join(folder, name), os.X_OK):
-            return os.path.join(folder, name)
-    return name
 
 
 def read_polygons(files):

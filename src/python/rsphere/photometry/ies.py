@@ -3,8 +3,8 @@ import os
 
 import numpy as np
 
-from fault import Fault, fault, lines_of, number, whole
-from photometry import Photometry, checked_angles, checked_candela, unfolded
+from ..fault import Fault, fault, lines_of, number, whole
+from .intensities import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
 FOOT = 0.3048

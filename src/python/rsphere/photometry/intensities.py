@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fault import fault
+from ..fault import fault
 
 
 TINY = 0.0005  # m; degrees

@@ -11,8 +11,8 @@ import math
 import re
 
 import numpy as np
-from fault import fault, lines_of, number, whole
-from sun import MONTHS, air_mass, day_of_year, sun_position
+from ..fault import fault, lines_of, number, whole
+from .sun import MONTHS, air_mass, day_of_year, sun_position
 
 # By clearness, from overcast to clear: a1 to a4 of the first parameter, then those of b, c, d, e (1993, table 1).
 LUMINANCE = np.array("""

@@ -1,25 +1,17 @@
-#!/usr/bin/env python3
-"""Daylight of a year at sensors: sDA and UDI, from a weather file and coefficients of the sky.
-
-  examples/annual/annual WEATHER COEFFICIENTS
-
-WEATHER is .wea or .epw. COEFFICIENTS is what rcontrib -I -faf -y N wrote for the bins of patches.cal, or of reinhart.cal, and an even
-sky of radiance 1. Writes da.txt and udi.txt, for each sensor the share (%) of the hours from 8 to 18 h of all days with at least 300 lx,
-and with 100 to 3000 lx, and prints what the room has. Needs NumPy.
-"""
+"""Daylight of a year at sensors: sDA and UDI, from a weather file and coefficients of the sky."""
 import math
-import os
 import sys
 
-sys.dont_write_bytecode = True  # this folder may be installed
-here = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [here, os.path.join(here, "..", "layout")]
-try:
-    import numpy as np
-except ImportError:
-    sys.exit("annual: needs NumPy (python3-numpy)")
-from fault import fault, run_program  # noqa: E402
-from sky import read_weather, sky_matrix  # noqa: E402
+import numpy as np
+
+from ..command import Options
+from ..fault import fault
+from .sky import read_weather, sky_matrix
+
+TEXT = """\
+The weather is .wea or .epw. Coefficients are what rcontrib -I -faf -y N wrote for the bins of patches.cal, or of
+reinhart.cal, and an even sky of radiance 1. Writes da.txt and udi.txt, for each sensor the share (%) of the hours from 8 to 18 h of all days
+with at least 300 lx, and with 100 to 3000 lx, and prints what the room has."""
 
 VISIBLE = np.array([0.265, 0.670, 0.065], np.float32)  # shares of red, green and blue in what the eye sees
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
@@ -57,7 +49,7 @@ def read_coefficients(path):
 
 
 def say(file, text):
-    print(f"annual: warning - {file}: {text}", file=sys.stderr)
+    print(f"rsphere-annual: warning - {file}: {text}", file=sys.stderr)
 
 
 def save(name, values):
@@ -68,20 +60,22 @@ def save(name, values):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    coefficients, factor = read_coefficients(sys.argv[2])
-    weather = read_weather(sys.argv[1])
+    parser = Options("", TEXT)
+    parser.add_argument("--weather", required=True, metavar="FILE", help="the hours of a year")
+    parser.add_argument("--coefficients", required=True, metavar="FILE", help="what sensors get of each patch of the sky")
+    given = parser.parse_args()
+    coefficients, factor = read_coefficients(given.coefficients)
+    weather = read_weather(given.weather)
     hours, missing, _ = weather
     if len(hours) + missing > HOURS_OF_LEAP_YEAR:
-        raise fault(sys.argv[1], None, f"has {len(hours) + missing} rows, more than a year has hours: each must be an hour")
+        raise fault(given.weather, None, f"has {len(hours) + missing} rows, more than a year has hours: each must be an hour")
     sky = sky_matrix(weather, factor, lambda row: 8 < row[2] < 18)
     if not len(sky):
-        raise fault(sys.argv[1], None, "has no hour from 8 to 18 h")
+        raise fault(given.weather, None, "has no hour from 8 to 18 h")
     if missing:
-        say(sys.argv[1], f"{missing} of {len(hours) + missing} hours have no irradiance (9999) and are left out")
+        say(given.weather, f"{missing} of {len(hours) + missing} hours have no irradiance (9999) and are left out")
     if len(hours) + missing < HOURS_OF_YEAR:
-        say(sys.argv[1], f"has {len(hours) + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
+        say(given.weather, f"has {len(hours) + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
     illuminance = coefficients @ sky.T  # lx: sensors by hours
     autonomy = (illuminance >= 300).mean(axis=1)
     useful = ((illuminance >= 100) & (illuminance <= 3000)).mean(axis=1)
@@ -94,6 +88,3 @@ def main():
     print(f"300 lx or more: {100 * autonomy.mean():.1f}% of the hours, mean of the sensors")
     print(f"UDI, 100 to 3000 lx: {100 * useful.mean():.1f}% of the hours, mean of the sensors")
     print(f"Light of the year: {illuminance.mean(axis=0).sum() / 1e6:.3f} Mlx h, mean of the sensors")
-
-
-run_program(main)

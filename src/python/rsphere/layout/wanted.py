@@ -3,7 +3,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from glare import factor_of_limit, glare_terms, rating
+from .glare import factor_of_limit, glare_terms, rating
 
 
 @dataclass

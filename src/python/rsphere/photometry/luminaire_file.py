@@ -1,7 +1,7 @@
 """Reads photometric files of either format."""
-from eulumdat import read_eulumdat
-from fault import fault, lines_of
-from ies import read_ies
+from ..fault import fault, lines_of
+from .eulumdat import read_eulumdat
+from .ies import read_ies
 
 
 def read_luminaire(file):

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from progress import PROGRESS
-from room import LIFT, goal_text, has_mirrors
-from surface_parts import GOLDEN as GOLDEN_STEP
-from surface_parts import PART, surface_parts
-from zones import Zones
+from ..progress import PROGRESS
+from .room import LIFT, goal_text, has_mirrors
+from .surface_parts import GOLDEN as GOLDEN_STEP
+from .surface_parts import PART, surface_parts
+from .zones import Zones
 
 PROBE = 0.05  # m, the radius of the disks and cylinders that emit importance for sensors and eyes
 SIDES = 8  # of the prism

@@ -6,7 +6,7 @@ in the sum; the level itself, which is larger, stands for it, so that the limit 
 """
 import numpy as np
 
-from surface_parts import surface_parts
+from .surface_parts import surface_parts
 
 FINE = 256  # parts of the luminous surfaces of a luminaire
 

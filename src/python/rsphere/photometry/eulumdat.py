@@ -3,8 +3,8 @@ import os
 
 import numpy as np
 
-from fault import fault, lines_of, number, whole
-from photometry import Photometry, checked_angles, checked_candela, unfolded
+from ..fault import fault, lines_of, number, whole
+from .intensities import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_PLANES = 721
 MOST_LAMPS = 20

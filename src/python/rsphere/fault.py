@@ -1,19 +1,23 @@
 """Faults in the input, and the numbers of text files, strictly read."""
 import codecs
 import re
-import sys
-import warnings
 
-from progress import PROGRESS
+from . import Error
 
 
-class Fault(Exception):
+class Fault(Error):
     """A fault in the input: one line that begins with the file and the line."""
+
+    file = line = None
+    cause = "input"
 
 
 def fault(file, line, text):
     place = file if line is None else f"{file}:{line}"
-    return Fault("".join(c if c.isprintable() else "?" for c in f"{place}: {text}"))
+    made = Fault("".join(c if c.isprintable() else "?" for c in f"{place}: {text}"))
+    made.file, made.line = file, line
+    return made
+
 
 # float() also reads nan, infinity, 1_000 and digits of other scripts.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -53,27 +57,3 @@ def lines_of(file, encoding="latin-1", errors="strict"):
     data = data.removeprefix(codecs.BOM_UTF8).rstrip(b"\x1a")
     text = data.decode(encoding, errors).replace("\r\n", "\n").replace("\r", "\n")
     return text.split("\n")
-
-
-def run_program(main):
-    """Runs main(), and prints a fault as one line. Warnings of the module rsphere are one line, too."""
-    name = sys.argv[0].rsplit("/", 1)[-1]
-
-    def show_warning(message, *_):
-        PROGRESS.clear()
-        print(f"{name}: warning - {message}", file=sys.stderr)
-
-    warnings.showwarning = show_warning
-    sys.stdout.reconfigure(errors="replace")  # names in the room may be bytes of another encoding
-    try:
-        return main()
-    except Fault as text:
-        sys.exit(f"{name}: {text}")
-    except KeyboardInterrupt:
-        PROGRESS.clear()
-        print(f"{name}: interrupted", file=sys.stderr)
-        sys.exit(3)
-    except BrokenPipeError:
-        sys.exit(1)
-    finally:
-        PROGRESS.clear()

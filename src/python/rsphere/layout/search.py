@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_matrix, csr_matrix
 
-from fault import fault
+from ..fault import fault
 
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once

@@ -3,8 +3,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lamp_rad import prism_radius
-from photometry import TINY
+from ..photometry.intensities import TINY
+from ..photometry.lamp_rad import prism_radius
 
 PART = 0.2  # m: the largest size of a part, as long as there are no more than `FEW`
 FEW = 12

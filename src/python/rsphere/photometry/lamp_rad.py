@@ -5,7 +5,7 @@ import shutil
 
 import numpy as np
 
-from photometry import TINY
+from .intensities import TINY
 
 SIDES = 16  # of a prism that stands for a cylinder: its width is within 1.3% of the cylinder's
 SLENDER = 0.2  # a cylinder is one as long as its radius is at most this share of its height

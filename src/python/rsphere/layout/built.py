@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from lamp_rad import pattern_text, surfaces_text, turning_words, word, write_data
+from ..photometry.lamp_rad import pattern_text, surfaces_text, turning_words, word, write_data
 
 
 def write_lamps(design, candidates, chosen, levels, folder, name):

@@ -1,0 +1,48 @@
+"""Where should the lamps hang? From goals to the layout of luminaires that meets them with the least watts."""
+import os
+import time
+
+import rsphere
+
+from ..command import Options
+from ..fault import Fault, fault
+from .steps import Steps
+
+TEXT = """\
+GOALS is a text that says what is wanted, which luminaires there are, and where they may hang: rsphere-layout(1).
+The room has no luminaires that are lit. The layout, its luminaires as .rad, a table of what was planned and of what light
+traced forward finds, plans and a page for the browser (page.html) go into the folder of -o."""
+
+
+def arguments():
+    parser = Options("goals scene...", TEXT)
+    parser.add_argument("goals")
+    parser.add_argument("room", nargs="+", metavar="scene")
+    parser.add_argument("-o", "--output", default="layout", metavar="FOLDER", help="for the results")
+    parser.add_argument("-t", "--title", default="", metavar="TEXT", help="of the page")
+    parser.add_argument("-b", "--bounces", type=int, default=5, metavar="N", help="reflections that are followed")
+    parser.add_argument("-d", "--directions", type=int, default=2048, metavar="N", help="of importance, at each place")
+    parser.add_argument("-s", "--seconds", type=float, default=30, metavar="S", help="that the search may take")
+    parser.add_argument("-g", "--gap", type=float, default=0.01, metavar="X", help="more watts than the least, as a share, end the search")
+    parser.add_argument("-c", "--check", type=int, default=128, metavar="N", help="rays to hemispheres (-ad) in each of six checks; 0: none")
+    parser.add_argument("-p", "--plan", metavar="NAME", help="polygon or modifier above which plans are drawn: the floor")
+    parser.add_argument("--height", type=float, metavar="H", help="of plans above it: .75 m")
+    parser.add_argument("--no-plan", action="store_true", help="no falsecolor plans")
+    given = parser.parse_args()
+    for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536)):
+        if not least <= getattr(given, name) <= most:
+            raise Fault(f"--{name} must be from {least:g} to {most:g}")
+    return given
+
+
+def main():
+    given = arguments()
+    try:
+        os.makedirs(given.output, exist_ok=True)
+    except OSError as error:
+        raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
+    steps = Steps(rsphere, given)
+    begin = time.monotonic()
+    steps.run()
+    print(f"{os.path.join(given.output, 'page.html')}: the page ({time.monotonic() - begin:.0f} s in all)")
+    return 0 if steps.met() else 2
