@@ -1,15 +1,19 @@
-"""A luminaire as a RADIANCE scene, from an IES LM-63 or EULUMDAT file."""
+"""A luminaire as a RADIANCE scene, or its UGR table, from an IES LM-63 or EULUMDAT file."""
 import os
 
 from ..command import Options
 from ..fault import fault
 from .lamp_rad import UNITS, pattern_text, surfaces_text, word, write_data
 from .luminaire_file import read_luminaire
+from .ugr_table import SPACINGS, UgrTable
+from .ugr_text import csv, svg, text
 
 TEXT = """\
 Writes the luminaire at the origin, aimed down; `xform -t 2 3 2.9 panel.rad` moves it. The intensities are in panel.dat,
 which is written beside its formulas, lamp.cal, into the folder of -o; rsphere and rtrace look there if the folder is in
-RAYPATH. C0 is along +x, and C90 along +y."""
+RAYPATH. C0 is along +x, and C90 along +y.
+
+With --ugr, prints the UGR table of CIE 117 and CIE 190 instead: 19 rooms by 5 reflectances, seen crosswise and endwise."""
 
 
 def main():
@@ -18,8 +22,16 @@ def main():
     parser.add_argument("-u", "--units", choices=UNITS, default="m", metavar="UNIT", help=f"of the scene: {', '.join(UNITS)}")
     parser.add_argument("-f", "--factor", type=float, default=1.0, metavar="X", help="on the light, such as a maintenance factor")
     parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="for the data file")
+    parser.add_argument("--ugr", action="store_true", help="print the UGR table instead of a scene")
+    parser.add_argument("--spacing", type=float, choices=SPACINGS, default=SPACINGS[0], metavar="S",
+                        help="of luminaires in the rooms of the table, in heights above the eye: .25 or 1")
+    parser.add_argument("--csv", dest="form", action="store_const", const=csv, default=text, help="the table as comma-separated values")
+    parser.add_argument("--svg", dest="form", action="store_const", const=svg, help="the table as a drawing")
     given = parser.parse_args()
     photometry = read_luminaire(given.file)
+    if given.ugr:
+        print(given.form(UgrTable(photometry, given.spacing, given.factor * photometry.tilt_factor(0))), end="")
+        return
     name = word(os.path.splitext(os.path.basename(given.file))[0])
     try:
         os.makedirs(given.output, exist_ok=True)

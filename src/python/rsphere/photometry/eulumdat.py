@@ -87,7 +87,7 @@ def read_lamps(lines):
 
 
 def read_opening(lines):
-    """The shape and the size (m): C0, which is +x, is across the length."""
+    """The shape, the size and the heights of the sides (m): C0, which is +x, is across the length."""
     names = ("length", "width", "height")
     body = [lines.number(f"the {what} of the luminaire (mm)", 0, 1e5) for what in names]
     length = lines.number("the length of the luminous area (mm)", 0, 1e5)
@@ -96,10 +96,10 @@ def read_opening(lines):
     if length == 0 and width == 0:
         length, width = body[0], body[1]
     if length == 0:
-        return "point", (0.001, 0.001, 0.001)
+        return "point", (0.001, 0.001, 0.001), None
     if width == 0:
-        return "cylinder", (length / 1000, length / 1000, max(heights) / 1000)
-    return "box", (width / 1000, length / 1000, max(heights) / 1000)
+        return "cylinder", (length / 1000, length / 1000, max(heights) / 1000), None
+    return "box", (width / 1000, length / 1000, max(heights) / 1000), tuple(h / 1000 for h in heights)
 
 
 def read_eulumdat(file):
@@ -118,7 +118,7 @@ def read_eulumdat(file):
         lines.text(what)
     if symmetry > 1 and planes % (2 if symmetry == 2 else 4):
         raise fault(file, 4, f"{planes} C planes do not fit symmetry {symmetry}")
-    shape, size = read_opening(lines)
+    shape, size, sides = read_opening(lines)
     lines.number("the downward flux fraction (%)", 0, 100)
     lines.number("the light output ratio (%)", 0, 1000)
     factor = lines.number("the factor on intensities", 1e-9, 1e9)
@@ -139,7 +139,8 @@ def read_eulumdat(file):
     used, candela = all_round(used, np.array(values).reshape(len(stored), gammas), symmetry if planes > 1 else 1)
     # cd per 1000 lm of the lamps, also where a negative number of lamps marks absolute photometry.
     candela = checked_candela(candela * factor * lumens / 1000, file, lines.line)
-    return Photometry(file, f"{maker} {name}".strip() or os.path.basename(file), used, vertical, candela, shape, size, watts)
+    name = f"{maker} {name}".strip() or os.path.basename(file)
+    return Photometry(file, name, used, vertical, candela, shape, size, watts, axis="y", sides=sides)
 
 
 def check_symmetry(lines, angles, symmetry):

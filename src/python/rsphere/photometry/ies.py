@@ -157,4 +157,6 @@ def read_ies(file):
         raise fault(file, words.line, "all candela values are 0")
     candela = checked_candela(candela * multiplier * factor, file, words.line)
     name = " ".join(keywords.get(key, "") for key in ("MANUFAC", "LUMCAT", "LUMINAIRE")).strip()
-    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt)
+    # Type C: the plane 0 is along the luminaire. Where the opening is wider, its longer side decides.
+    axis = "y" if size[1] > size[0] else "x"
+    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt, axis)

@@ -27,6 +27,8 @@ class Photometry:
     size: tuple  # along x, along y, height
     watts: float
     tilt: tuple = field(default=((0.0, 180.0), (1.0, 1.0)))  # angles of the luminaire, and factors on its light
+    axis: str = "x"  # that a long luminaire lies along; one that is seen crosswise has it across the line of sight
+    sides: tuple = None  # the heights of the luminous sides that face C0, C90, C180 and C270, where these differ
 
     def intensity(self, directions):
         """cd in directions (..., 3): unit vectors from the luminaire. Linear between the angles of the file."""
@@ -66,17 +68,17 @@ class Photometry:
         """Whether there is light below and above the horizontal, by the angles of the file."""
         return bool(self.gammas[0] < 90), bool(self.gammas[-1] > 90)
 
-    def projected_area(self, directions):
-        """The luminous area (m2) seen from directions (..., 3): unit vectors from the luminaire."""
-        d = np.abs(np.asarray(directions, dtype=float))
+    def luminous_area(self, directions):
+        """The luminous area (m2) in view from directions (..., 3): unit vectors from the luminaire."""
+        d = np.asarray(directions, dtype=float)
         x, y, h = self.size
         if self.shape in ("sphere", "point"):
             return np.full(d.shape[:-1], np.pi / 4 * x * x)
-        across = np.hypot(d[..., 0], d[..., 1])
-        sides = all(self.shines()) and h > 0
         if self.shape == "cylinder":
-            return np.pi / 4 * x * x * d[..., 2] + (x * h * across if sides else 0)
-        return x * y * d[..., 2] + ((y * h * d[..., 0] + x * h * d[..., 1]) if sides else 0)
+            return np.pi / 4 * x * x * np.abs(d[..., 2]) + x * h * np.hypot(d[..., 0], d[..., 1])
+        sides = self.sides or (h, h, h, h)
+        ahead, beside = np.where(d[..., 0] > 0, *sides[::2]), np.where(d[..., 1] > 0, *sides[1::2])
+        return x * y * np.abs(d[..., 2]) + y * ahead * np.abs(d[..., 0]) + x * beside * np.abs(d[..., 1])
 
 
 def checked_angles(angles, file, line, what):
