@@ -10,6 +10,7 @@ from ..fault import fault
 
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once
+EVEN = 1e-3  # of a spacing: rows are as far apart as others
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
 
 
@@ -130,8 +131,8 @@ def arrange(program, design, candidates, x):
 
 
 def arrange_rows(program, candidates, x):
-    """Of each grid, some rows and some columns are used, and a luminaire of one kind hangs wherever they cross."""
-    used = {}
+    """Of each grid, some rows and some columns are used, evenly spaced, and a luminaire of one kind hangs wherever they cross."""
+    used, places = {}, {}
 
     def variable(key):
         if key not in used:
@@ -146,12 +147,40 @@ def arrange_rows(program, candidates, x):
         crossings.setdefault((grid, row, column), []).append(i)
         for key in ("row", grid, row), ("column", grid, column), ("kind", grid, c.luminaire, tuple(c.aim), c.turn):
             program.constrain([x[i], variable(key)], [1, -1], -1, 0)
+        places["row", grid, row], places["column", grid, column] = c.position[1], c.position[0]
     for (grid, row, column), members in crossings.items():
         crossing = [*x[members], variable(("row", grid, row)), variable(("column", grid, column))]
         program.constrain(crossing, [1] * len(members) + [-1, -1], -1, np.inf)
+    for kind, grid in dict.fromkeys(key[:2] for key in places):
+        keys = sorted((key for key in places if key[:2] == (kind, grid)), key=places.get)
+        arrange_evenly(program, [used[key] for key in keys], [places[key] for key in keys])
     for grid in {key[1] for key in used}:
         kinds = [v for key, v in used.items() if key[0] == "kind" and key[1] == grid]
         program.constrain(kinds, np.ones(len(kinds)), 0, 1)
+
+
+def arrange_evenly(program, used, places):
+    """Rows (or columns) that are used are evenly spaced. used: the variable of each; places: their coordinates, ascending."""
+    choices = even_choices(places)
+    chosen = program.variables(len(choices), integer=True)
+    program.constrain(chosen, np.ones(len(chosen)), 0, 1)
+    for i, variable in enumerate(used):
+        here = [v for v, choice in zip(chosen, choices) if i in choice]
+        program.constrain([variable, *here], [1] + [-1] * len(here), 0, 0)
+
+
+def even_choices(places):
+    """All sets (of indices) of one place or more that are evenly spaced. places: ascending."""
+    found = [{i} for i in range(len(places))]
+    for i, first in enumerate(places):
+        for j in range(i + 1, len(places)):
+            step, choice = places[j] - first, {i}
+            for k in range(j, len(places)):
+                steps = (places[k] - first) / step
+                if abs(steps - len(choice)) < EVEN:
+                    choice.add(k)
+                    found.append(set(choice))
+    return found
 
 
 def constrain_goal(program, row, variables, slack=None):
