@@ -26,7 +26,7 @@ def arguments():
     parser.add_argument("-g", "--gap", type=float, default=0.01, metavar="X", help="more watts than the least, as a share, end the search")
     parser.add_argument("-c", "--check", type=int, default=128, metavar="N", help="rays to hemispheres (-ad) in each of six checks; 0: none")
     parser.add_argument("-p", "--plan", metavar="NAME", help="polygon or modifier above which plans are drawn: the floor")
-    parser.add_argument("--height", type=float, metavar="H", help="of plans above it: .75 m")
+    parser.add_argument("--height", type=float, metavar="H", help="of plans above it: that of the goals, or .75 m")
     parser.add_argument("--no-plan", action="store_true", help="no falsecolor plans")
     given = parser.parse_args()
     for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536)):

@@ -5,7 +5,7 @@ Each value is the mean of repeats with other random numbers; its standard error 
 import numpy as np
 
 from ..progress import PROGRESS
-from .wanted import Answer, cell_means, receiver_of, uniformity
+from .wanted import Answer, receiver_of, uniformity
 
 REPEATS = 6
 BEYOND = 1e12  # cd/m2
@@ -37,8 +37,8 @@ class Forward:
         PROGRESS.clear()
         return np.array(found)
 
-    def answers(self, goals, lit):
-        """The Answer of each goal. lit: cells that count, by receiver."""
+    def answers(self, goals):
+        """The Answer of each goal."""
         found, known = [], {}
         for goal in goals:
             if goal.kind == "ugr":
@@ -49,7 +49,7 @@ class Forward:
                 known[i] = self.points(i)
             values = known[i].mean(axis=1)
             if goal.kind == "uniformity":
-                found.append(uniformity(goal, np.array([cell_means(v)[lit[i]] for v in known[i]])))
+                found.append(uniformity(goal, np.array([self.t.receivers[i].cell_means(v) for v in known[i]]), self.t.receivers[i]))
             else:
                 found.append(Answer(goal, float(values.mean()), self.error(values)))
         return found

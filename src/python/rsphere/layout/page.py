@@ -4,6 +4,7 @@ from html import escape
 import numpy as np
 
 from .built import outline
+from .standing import tops
 
 STYLE = """
 :root { color-scheme: light dark; }
@@ -48,8 +49,11 @@ def scale_bar(pixels, units, down):
             + label(f"{metres} m", 12, 680 - length - 6, down, "end"))
 
 
-def drawing(design, polygons, candidates, chosen, levels, title):
-    """Outlines of the room and of what is wanted, candidates as dots, luminaires to scale with their numbers and levels."""
+def drawing(design, polygons, candidates, chosen, levels, title, darkest=()):
+    """Outlines of the room, of what stands in it and of what is wanted, candidates as dots, luminaires to scale with numbers and levels.
+
+    darkest: places where goals are.
+    """
     flat = [p for p in polygons if abs(p.vector()[2]) > 0.9 * np.linalg.norm(p.vector()) > 0]
     room = max(flat, key=lambda p: abs(p.vector()[2]))
     low, high = room.corners[:, :2].min(axis=0), room.corners[:, :2].max(axis=0)
@@ -59,7 +63,16 @@ def drawing(design, polygons, candidates, chosen, levels, title):
     outlines = [to(outline(design, candidates[j])) for j in chosen]
     taken = [(*(c.min(axis=0) - (0, 8)), *(c.max(axis=0) + (10, 0))) for c in outlines]  # a small one has its number at its upper right
     parts, names = [label(title, 15, 20, 24), shape(to(room.corners), 'fill="#f6f4ef" stroke="#555" stroke-width="2"')], []
-    for surface in sorted(design.surfaces.values(), key=lambda s: -s.area):  # small ones on top
+    wanted = {id(p) for surface in design.surfaces.values() for p in surface.polygons}
+    floor = max((p for p in flat if p.vector()[2] > 0), key=lambda p: p.vector()[2], default=room)
+    for p in tops(polygons, floor.corners[:, 2].max(), max(p.corners[:, 2].max() for p in polygons), design.units):
+        if id(p) not in wanted:
+            corners, size = to(p.corners), np.ptp(to(p.corners), axis=0)
+            over = p.corners[:, 2].min() > min(c.position[2] for c in candidates) - design.units  # beams: what is below shows
+            parts.append(shape(corners, 'fill="none" stroke="#b5aea0" stroke-dasharray="3 3"' if over else 'fill="#e4dfd3" stroke="#b5aea0"'))
+            if size[0] > 6.2 * len(p.box()) and size[1] > 14:
+                names.append(label(p.box(), 9, *free_corner(corners, p.box(), taken), color="#857d6c"))
+    for surface in sorted(design.surfaces.values(), key=lambda s: -s.area()):  # small ones on top
         for p in surface.polygons:
             corners = to(p.corners)
             # A goal about as large as the room would hide the room.
@@ -90,6 +103,8 @@ def drawing(design, polygons, candidates, chosen, levels, title):
         text = str(number) if level > 0.995 else f"{number}: {level:.0%}"
         inside = half[0] > 3.4 * len(text) and half[1] > 7
         names.append(label(text, 11, *((x, y + 4, "middle") if inside else (x + half[0] + 2, y - half[1] + 2))))
+    for x, y in (to(place) for place in darkest):
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="none" stroke="#3a6343" stroke-width="2"/>')
     for i, l in enumerate(design.luminaires):
         parts.append(f'<rect x="{20 + 180 * (i % 3)}" y="{height + 54 + 20 * (i // 3):.0f}" width="22" height="12" '
                      f'fill="{COLORS[i % len(COLORS)]}" stroke="#222"/>')
@@ -97,6 +112,7 @@ def drawing(design, polygons, candidates, chosen, levels, title):
     bottom = height + 64 + 20 * ((len(design.luminaires) - 1) // 3)
     parts.append(scale_bar(scale, design.units, bottom))
     legend = "dots: where luminaires may hang" + "; green: goals" * bool(design.surfaces or design.sensors) + "; red: eyes" * bool(design.eyes)
+    legend += "; ring: where a goal is darkest" * bool(len(darkest)) + "; grey: what stands in the room"
     parts.append(label(legend, 12, 20, bottom + 22))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="700" height="{bottom + 36:.0f}" viewBox="0 0 700 {bottom + 36:.0f}" '
             f'font-family="sans-serif"><rect width="100%" height="100%" fill="white"/>{"".join(parts)}{"".join(names)}</svg>\n')

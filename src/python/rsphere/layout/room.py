@@ -3,7 +3,7 @@ import difflib
 import fnmatch
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,7 +15,14 @@ FACE = re.compile(r"\.(1540|4620|6457|3267|5137|2310)\Z")  # behind the name of 
 BYTE = re.compile(r"\\x([89a-f][0-9a-f])")  # plan's word for a byte that is not UTF-8: Latin-1, as a surrogate
 MOST_CELLS = 20000  # of a polygon
 FINE = 6  # points along each side of a cell
+EDGE = 24  # points along each edge of an outline
 PARTS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 4  # points in a cell, from its middle, by its sides
+
+
+def vector_of(corners):
+    """The normal of a polygon's front, as long as its area is large."""
+    c = corners - corners[0]
+    return np.cross(c, np.roll(c, -1, axis=0)).sum(axis=0) / 2
 
 
 @dataclass
@@ -30,8 +37,7 @@ class Polygon:
 
     def vector(self):
         """The normal of the front, as long as the area is large."""
-        c = self.corners - self.corners[0]
-        return np.cross(c, np.roll(c, -1, axis=0)).sum(axis=0) / 2
+        return vector_of(self.corners)
 
 
 @dataclass
@@ -44,17 +50,51 @@ class Surface:
     name: str
     polygons: list
     side: int  # 1: their fronts, -1: their backs
-    area: float  # in square units of the scene
+    outlines: list  # of what is inside the margin: corners (n, 3) and normals; the mean is that over them
     cells: np.ndarray  # the corners (n, 4, 3)
     points: np.ndarray  # (4 n, 3), those of a cell one after the other
     normals: np.ndarray  # (4 n, 3)
+    cell_of: np.ndarray  # (4 n,), the number of the cell of each point
+    covered: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))  # points that are left out: inside of furniture
+
+    def area(self):
+        """In square units of the scene."""
+        return sum(np.linalg.norm(vector_of(corners)) for corners, _ in self.outlines)
+
+    def leave_out(self, covered):
+        """Leaves out points that are covered, and the parts of the surface that they stand for. covered: of each point."""
+        outlines = list(self.open_strips(~covered))
+        self.covered, self.outlines = self.points[covered], outlines
+        self.points, self.normals, self.cell_of = self.points[~covered], self.normals[~covered], self.cell_of[~covered]
+
+    def open_strips(self, is_open):
+        """The quarters of cells around open points, those side by side as one: corners and normals."""
+        corner, right, up = self.cells[:, 0], (self.cells[:, 1] - self.cells[:, 0]) / 2, (self.cells[:, 3] - self.cells[:, 0]) / 2
+        which, normals = is_open.reshape(-1, 4), self.normals[::4]
+        for upper, pair in ((0, (0, 1)), (1, (3, 2))):  # the halves of rows of cells, in the order of PARTS
+            strip = None
+            for cell in range(len(self.cells)):
+                for aside, point in enumerate(pair):
+                    low = corner[cell] + aside * right[cell] + upper * up[cell]
+                    quarter = np.array([low, low + right[cell], low + right[cell] + up[cell], low + up[cell]])
+                    goes_on = strip is not None and np.allclose(strip[0][1:3], quarter[[0, 3]], atol=1e-6 * np.abs(right[cell]).max())
+                    if strip is not None and not (goes_on and which[cell, point]):
+                        yield strip
+                        strip = None
+                    if which[cell, point]:
+                        strip = (np.array([quarter[0] if strip is None else strip[0][0], quarter[1], quarter[2],
+                                           quarter[3] if strip is None else strip[0][3]]), normals[cell])
+            if strip is not None:
+                yield strip
 
     def fine_points(self):
-        """Points spread over all cells, FINE along each of their sides."""
+        """Points spread over all cells, FINE along each of their sides, and along the outlines."""
         part = (np.arange(FINE) + 0.5) / FINE
         u, v = (x.ravel()[:, None] for x in np.meshgrid(part, part))
         corner, right, up = self.cells[:, :1], self.cells[:, 1:2] - self.cells[:, :1], self.cells[:, 3:] - self.cells[:, :1]
-        return (corner + u * right + v * up).reshape(-1, 3)
+        edges = [c + t * (np.roll(c, -1, axis=0) - c) for c, _ in self.outlines for t in np.linspace(0, 1, EDGE, endpoint=False)]
+        return np.concatenate([(corner + u * right + v * up).reshape(-1, 3), *edges])
+
 
 
 def read_polygons(files):
@@ -124,8 +164,8 @@ def inside(corners, points):
     return odd
 
 
-def cells_of(polygon, spacing, margin, place):
-    """The middles and corners of cells of at most a spacing, parallel to the first edge, with the middle inside."""
+def flat_frame(polygon):
+    """The origin and two unit vectors of a polygon's plane, parallel to its first edge, and its corners there (n, 2)."""
     normal = polygon.vector() / np.linalg.norm(polygon.vector())
     right, up = frame_of(normal)
     edge = polygon.corners[1] - polygon.corners[0]
@@ -136,7 +176,33 @@ def cells_of(polygon, spacing, margin, place):
         right = right if right[0] > 0 else -right
         up = np.array([-right[1], right[0], 0])
     origin = polygon.corners[0]
-    flat = np.stack([(polygon.corners - origin) @ right, (polygon.corners - origin) @ up], axis=1)
+    return origin, right, up, np.stack([(polygon.corners - origin) @ right, (polygon.corners - origin) @ up], axis=1)
+
+
+def inside_margin(polygon, margin):
+    """The corners of the part of a polygon that is inside of its bounding rectangle by a margin; none if there is no such part."""
+    if not margin > 0:
+        return polygon.corners
+    origin, right, up, flat = flat_frame(polygon)
+    low, high = flat.min(axis=0) + margin, flat.max(axis=0) - margin
+    for axis in range(2):  # Sutherland and Hodgman 1974
+        for bound, sign in ((low[axis], 1), (high[axis], -1)):
+            kept = []
+            for a, b in zip(flat, np.roll(flat, -1, axis=0)):
+                da, db = sign * (a[axis] - bound), sign * (b[axis] - bound)
+                if da >= 0:
+                    kept.append(a)
+                if da * db < 0:
+                    kept.append(a + (b - a) * da / (da - db))
+            if len(kept) < 3:
+                return np.zeros((0, 3))
+            flat = np.array(kept)
+    return origin + flat[:, :1] * right + flat[:, 1:] * up
+
+
+def cells_of(polygon, spacing, margin, place):
+    """The middles and corners of cells of at most a spacing, parallel to the first edge, with the middle inside."""
+    origin, right, up, flat = flat_frame(polygon)
     low, high = flat.min(axis=0) + margin, flat.max(axis=0) - margin
     if not (high > low).all():
         return np.zeros((0, 3)), [], (0, 0)
@@ -163,7 +229,9 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
     """The surface of a goal. spacing, margin: of its sensors, in units of the scene (EN 12464-1's, at least 6 points)."""
     named = polygons_named(polygons, name, place)
     side = -1 if back else 1
-    area = sum(np.linalg.norm(p.vector()) for p in named)
+    outlines = [inside_margin(p, margin) for p in named]
+    named = [p for p, o in zip(named, outlines) if len(o)]
+    outlines = [(o, side * p.vector() / np.linalg.norm(p.vector())) for o, p in zip((o for o in outlines if len(o)), named)]
     points, normals, cells = [], [], []
     for p in named:
         normal = side * p.vector() / np.linalg.norm(p.vector())
@@ -176,15 +244,15 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
             normals += [normal] * 4
     if not points:
         raise fault(*place, f'no sensor fits on "{name}"; is its margin too wide?')
-    return Surface(name, named, side, area, np.array(cells), np.array(points), np.array(normals))
+    return Surface(name, named, side, outlines, np.array(cells), np.array(points), np.array(normals), np.arange(len(points)) // 4)
 
 
 def goal_text(surface, modifier, units):
-    """Scene text of a surface that emits importance: its polygons, a little above themselves."""
+    """Scene text of a surface that emits importance: its outlines, a little above themselves."""
     text = f"void alias {modifier} {surface.polygons[0].modifier}\n"
-    for i, p in enumerate(surface.polygons):
-        normal = surface.side * p.vector() / np.linalg.norm(p.vector())
-        corners = (p.corners + normal * LIFT * units)[:: surface.side]
+    for i, (outline, normal) in enumerate(surface.outlines):
+        corners = outline + normal * LIFT * units
+        corners = corners if vector_of(corners) @ normal > 0 else corners[::-1]
         shown = " ".join(f"{v:.9g}" for v in corners.ravel())
         text += f"{modifier} polygon {modifier}.{i + 1}\n0\n0\n{corners.size} {shown}\n"
     return text

@@ -17,8 +17,9 @@ from .forward import Forward, daylight_of
 from .page import Page, drawing, table
 from .room import read_polygons
 from .search import search
+from .standing import covered_text, darkest_text
 from .transfer import Transfer
-from .wanted import Light, answers, light_of, lit_cells, receiver_of, rows_of
+from .wanted import Light, answers, light_of, receiver_of, rows_of
 
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
@@ -65,7 +66,6 @@ class Steps:
             self.watts = np.array([d.luminaires[c.luminaire].watts for c in d.candidates])
             self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
             self.light = light_of(self.transfer, d.candidates, self.matrix)
-            self.lit = [lit_cells(self.light, i) for i in range(len(self.transfer.receivers))]
             self.check_sides()
             self.daylight = [self.daylight_in(s) for s in d.all_scenes()]
             print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
@@ -73,6 +73,7 @@ class Steps:
             self.find_layout(folder)
             self.tell_layout()
             self.check()
+            self.tell_points()
             self.pages()
 
     def check_sides(self):
@@ -136,7 +137,7 @@ class Steps:
         """Factors on the light of each goal in a scene, so that it is met by luminaires as built."""
         scene, levels = self.design.all_scenes()[s], self.layout.levels[s]
         found = {}
-        as_points = answers(self.transfer, scene.goals, self.light_of_chosen(), levels, self.daylight[s], self.lit)
+        as_points = answers(self.transfer, scene.goals, self.light_of_chosen(), levels, self.daylight[s])
         for built, planned in zip(self.planned(s), as_points):
             kind, key = built.goal.kind, (built.goal.kind, built.goal.target)
             ratio = 10 ** ((built.value - planned.value) / 8) if kind == "ugr" else built.value / max(planned.value, 1e-9)
@@ -145,7 +146,7 @@ class Steps:
 
     def searched(self, factors, seconds):
         PROGRESS.begin("Search", seconds=seconds)
-        scenes = [rows_of(self.transfer, s.goals, self.light, day, self.lit, f)
+        scenes = [rows_of(self.transfer, s.goals, self.light, day, f)
                   for s, day, f in zip(self.design.all_scenes(), self.daylight, factors)]
         return search(self.design, self.candidates, self.watts, scenes, seconds, self.given.gap)
 
@@ -168,6 +169,27 @@ class Steps:
             finer = min(max(len(self.candidates) // (2 * len(lamps)), 1), MOST_FINER)
             self.planned_light = light_of(transfer, lamps, transfer.matrix(lamps, finer * self.given.directions))
 
+    def dimmed_text(self):
+        """The watts of each scene, if luminaires are dimmed."""
+        if not self.design.dims():
+            return ""
+        each = (f"{s.name} {self.scene_watts(levels):.0f} W".strip() for s, levels in zip(self.design.all_scenes(), self.layout.levels))
+        return f"; dimmed: {', '.join(each)}"
+
+    def tell_points(self):
+        """Which points are left out, and where goals are darkest."""
+        room, self.points_text, self.darkest = self.rsphere.Scene(self.given.room), [], []
+        self.points_text += [covered_text(room, s) for s in self.design.surfaces.values() if len(s.covered)]
+        below = min(c.position[2] for c in self.candidates)
+        for scene, goal, planned, found in self.rows:
+            if goal.kind == "uniformity":
+                answer = found or planned
+                normal = self.design.surfaces[goal.target].normals[0]
+                self.darkest.append((scene.name, answer.place))
+                self.points_text.append(darkest_text(room, f"{scene.name} {goal.target}".strip(), answer.place, normal, answer.value, below))
+        for line in self.points_text:
+            print(f"{line}.")
+
     def scene_watts(self, levels):
         return float(self.watts[self.layout.chosen] @ levels)
 
@@ -177,7 +199,7 @@ class Steps:
         layout.misses = [m for m in layout.misses if not next(a for a in self.planned(m[0]) if a.goal is m[1]).met(TOLERANCE)]
         total = float(self.watts[layout.chosen].sum())
         bound = f"; none takes less than {layout.bound:.0f} W" if layout.bound > 0 else ""
-        print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound} ({self.seconds['search']:.1f} s)")
+        print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds['search']:.1f} s)")
         for s, goal, slack in layout.misses:
             name = d.all_scenes()[s].name
             print(f"{self.miss_head()}{' in ' + name if name else ''}: {self.miss_text(s, goal)}")
@@ -192,7 +214,7 @@ class Steps:
 
     def planned(self, s):
         scene = self.design.all_scenes()[s]
-        return answers(self.transfer, scene.goals, self.planned_light, self.layout.levels[s], self.daylight[s], self.lit)
+        return answers(self.transfer, scene.goals, self.planned_light, self.layout.levels[s], self.daylight[s])
 
     def check(self):
         self.files = []
@@ -212,11 +234,11 @@ class Steps:
         with raypath(self.given.output):
             electric = Forward(self.transfer, self.rsphere.Scene([*self.given.room, file]), self.given.check)
             if not scene.daylight:
-                return electric.answers(scene.goals, self.lit)
+                return electric.answers(scene.goals)
             both = Forward(self.transfer, self.rsphere.Scene([*scene.daylight, *self.given.room, file]),
                            max(self.given.check, DAYLIGHT_DIVISIONS))
-            glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"], self.lit))
-            rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"], self.lit))
+            glare = iter(electric.answers([g for g in scene.goals if g.kind == "ugr"]))
+            rest = iter(both.answers([g for g in scene.goals if g.kind != "ugr"]))
             return [next(glare if g.kind == "ugr" else rest) for g in scene.goals]
 
     def table_rows(self):
@@ -270,7 +292,7 @@ class Steps:
         if self.given.no_plan or not name:
             return None
         d = self.design
-        heights = [surface.points[0, 2] for surface in d.surfaces.values()]
+        heights = [surface.points[0, 2] for surface in d.surfaces.values() if surface.normals[0, 2] > 0.9]
         height = self.given.height
         if height is None:
             height = statistics.median(heights) - floor.corners[0, 2] if heights and not self.given.plan else 0.75 * d.units
@@ -294,12 +316,13 @@ class Steps:
 
     def pages(self):
         page, d = Page(self.title), self.design
-        page.banner(self.met(), self.verdict())
+        page.banner(self.met() and self.agree(), self.verdict())
         for s, goal, _ in self.layout.misses:
             page.banner(False, f"{self.miss_head()}: {d.all_scenes()[s].name} {self.miss_text(s, goal)}")
         for s, (scene, levels) in enumerate(zip(d.all_scenes(), self.layout.levels)):
-            title = f"{len(self.layout.chosen)} luminaires, {self.scene_watts(levels):.0f} W" + (f": {scene.name}" if scene.name else "")
-            svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title)
+            title = self.layout_title(scene, levels)
+            darkest = [place for name, place in self.darkest if name == scene.name]
+            svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title, darkest)
             with open(os.path.join(self.given.output, f"layout_{scene.name}.svg" if scene.name else "layout.svg"), "w", encoding="utf-8", errors="replace") as stream:
                 stream.write(svg)
             page.heading(title)
@@ -311,6 +334,8 @@ class Steps:
                 page.note(f"The maintenance factor of {d.maintenance:g} is in the light of the luminaires.")
         page.heading("Planned against found")
         page.add(table(self.head(), list(self.table_rows()), 3 if d.scenes else 2))
+        for line in self.points_text:
+            page.note(f"{line}.")
         page.note(f"Planned: by the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard "
                   f"error {self.matrix_error():.1%}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
                   f"standard error. A goal is met if what is found keeps it within {TOLERANCE:.0%}, a limit of UGR within .1.")
@@ -320,6 +345,12 @@ class Steps:
                   + ", ".join(f"{k} {v:.1f}" for k, v in self.seconds.items()) + ".")
         with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8", errors="replace") as stream:
             stream.write(page.html())
+
+    def layout_title(self, scene, levels):
+        """The watts are those of the luminaires, and as they are dimmed where this is less."""
+        total, dimmed = float(self.watts[self.layout.chosen].sum()), self.scene_watts(levels)
+        less = f", {dimmed:.0f} W as dimmed" if dimmed < total - 0.5 else ""
+        return f"{len(self.layout.chosen)} luminaires, {total:.0f} W{less}" + (f": {scene.name}" if scene.name else "")
 
     def load(self, levels):
         """How many luminaires of each kind, and the watts on the floor."""

@@ -47,6 +47,16 @@ class Receiver:
     points: np.ndarray  # (n, 3)
     normals: np.ndarray  # (n, 3)
     surface: int
+    cell_of: np.ndarray = None  # (n,), the number of the cell of each point of a surface
+
+    def cell_means(self, values):
+        """Means over the cells of a surface of values at points (n, ...); of a single point, what it has."""
+        if self.cell_of is None:
+            return values
+        cells, which, counts = np.unique(self.cell_of, return_inverse=True, return_counts=True)
+        sums = np.zeros((len(cells), *values.shape[1:]))
+        np.add.at(sums, which.ravel(), values)
+        return sums / counts.reshape(-1, *[1] * (values.ndim - 1))
 
 
 @dataclass
@@ -127,31 +137,32 @@ def sees(directions, receiver_kind, normals):
 class Transfer:
     """Computes matrices for a design. The scene may have luminaires already: bodies, which are dark.
 
-    fine: with the reflected light of each cell of surfaces that are to be even, and MOST_PARTS_BUILT for shadows.
+    fine: with the reflected light of each cell of surfaces that are to be even, and MOST_PARTS_BUILT for shadows. Otherwise,
+    matrix() leaves out points of the design's surfaces that lie inside of furniture or under it.
     """
 
     def __init__(self, rsphere, files, design, folder, bounces, fine=False):
         self.rsphere, self.files, self.design, self.folder, self.bounces = rsphere, list(files), design, folder, bounces
         self.fine, self.most_parts = fine, MOST_PARTS_BUILT if fine else MOST_PARTS
         self.receivers, self.groups = [], []
-        self.index, self.cells, self.sensors_of_cell = {}, {}, 4
+        self.index, self.cells = {}, {}
         self.mirrors = has_mirrors(files)
-        self.add_surfaces()
-        self.add_probes()
-        if fine:
-            self.add_cells()
+        for i, surface in enumerate(design.surfaces.values()):
+            self.add(Receiver(surface.name, "plane", surface.points, surface.normals, i, surface.cell_of))
+        self.probe_groups = self.probes()
+        for receiver in (r for group in self.probe_groups for r in group):
+            self.add(receiver)
 
     def add(self, receiver):
         self.index[receiver.name, receiver.kind] = len(self.receivers)
         self.receivers.append(receiver)
 
     def add_surfaces(self):
-        """One receiver for each surface, whose points are its sensors."""
+        """Surfaces emit importance, all in one scene."""
         text, areas = "", []
         for i, surface in enumerate(self.design.surfaces.values()):
             text += goal_text(surface, f"layout_goal{i}", self.design.units)
-            areas.append(surface.area)
-            self.add(Receiver(surface.name, "plane", surface.points, surface.normals, i))
+            areas.append(surface.area())
         if areas:
             names = [f"layout_goal{i}" for i in range(len(areas))]
             points = [s.fine_points() for s in self.design.surfaces.values()] if self.mirrors else None
@@ -177,7 +188,7 @@ class Transfer:
         return groups
 
     def add_probes(self):
-        for group in self.probes():
+        for group in self.probe_groups:
             text, areas, names = "", [], []
             first = self.goal_count()
             for receiver in group:
@@ -187,22 +198,20 @@ class Transfer:
                 text += part
                 names.append(name)
                 areas.append(area)
-                self.add(receiver)
             if group:
                 self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first, None))
 
     def add_cells(self):
-        """Sensors on surfaces that are to be even: their points, or the middles of their cells."""
+        """Sensors on surfaces that are to be even: their points, or the middles of those of each cell."""
         even = {g.target for scene in self.design.all_scenes() for g in scene.goals if g.kind == "uniformity"}
-        if sum(len(s.points) for name, s in self.design.surfaces.items() if name in even) > MOST_SENSORS:
-            self.sensors_of_cell = 1
+        many = sum(len(s.points) for name, s in self.design.surfaces.items() if name in even) > MOST_SENSORS
         sensors, first = [], self.goal_count()
         for i, (name, surface) in enumerate(self.design.surfaces.items()):
             if name in even:
-                begin = first + len(sensors)
-                points = surface.points.reshape(-1, 4 // self.sensors_of_cell, 3).mean(axis=1)
-                sensors += list(np.hstack([points, surface.normals[:: 4 // self.sensors_of_cell]]))
-                self.cells[i] = slice(begin, first + len(sensors))
+                begin, receiver = first + len(sensors), self.receivers[i]
+                at = np.hstack([surface.points, surface.normals])
+                sensors += list(receiver.cell_means(at) if many else at)
+                self.cells[i] = slice(begin, first + len(sensors)), (lambda v: v) if many else receiver.cell_means
         if sensors:
             points = [s[None, :3] for s in sensors] if self.mirrors else None
             self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points))
@@ -235,9 +244,32 @@ class Transfer:
         """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
         self.points = Direct(self, candidates)
+        if not self.fine:
+            self.leave_out_covered(candidates)
+        self.add_surfaces()
+        self.add_probes()
+        if self.fine:
+            self.add_cells()
         sets = self.sets(candidates, zones, directions // SETS)
-        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]], 
-                      {i: sets[:, s].reshape(SETS, -1, self.sensors_of_cell, len(candidates)).mean(axis=2) for i, s in self.cells.items()})
+        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]],
+                      {i: np.array([means(values[there]) for values in sets]) for i, (there, means) in self.cells.items()})
+
+    def leave_out_covered(self, candidates):
+        """Leaves out the points of surfaces that no candidate lights and something covers that is nearer than all candidates."""
+        room, hang = self.rsphere.Scene(self.files), np.array([c.position for c in candidates])
+        for i, surface in enumerate(self.design.surfaces.values()):
+            covered = self.points.exact[i].max(axis=1) <= 0
+            if not covered.any():
+                continue
+            at, normals = surface.points[covered], surface.normals[covered]
+            away = ((hang[None] - at[:, None]) * normals[:, None]).sum(axis=-1)
+            least = np.where(away > 0, away, np.inf).min(axis=1)
+            covered[covered] = room.trace(np.hstack([at, normals]), outputs="L").first_length < least - LIFT * self.design.units
+            if covered.any() and not covered.all():
+                surface.leave_out(covered)
+                r = self.receivers[i]
+                r.points, r.normals, r.cell_of = surface.points, surface.normals, surface.cell_of
+                self.points.exact[i] = self.points.exact[i][~covered]
 
     @staticmethod
     def beside(goal_points, places, zones):

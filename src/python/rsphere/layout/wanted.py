@@ -18,10 +18,9 @@ class Light:
     def __post_init__(self):
         self.reflected = self.sets.mean(axis=0)
 
-    def at_cells(self, i, lit):
+    def at_cells(self, i, receiver):
         """What each cell of receiver i gets: (sets, cells, candidates). Where it is not known, what is reflected is even."""
-        reflected = self.cells[i][:, lit] if i in self.cells else self.sets[:, i, None]
-        return cell_means(self.direct[i])[lit] + reflected
+        return receiver.cell_means(self.direct[i]) + (self.cells[i] if i in self.cells else self.sets[:, i, None])
 
     def error(self, i, levels):
         """The standard error of what receiver i gets, from the spread of the sets."""
@@ -52,25 +51,12 @@ def receiver_of(transfer, name, kinds=("plane", "cylinder")):
     return next(transfer.index[name, k] for k in kinds if (name, k) in transfer.index)
 
 
-def cell_means(direct):
-    """Means over the cells of a surface of direct light (points, ...)."""
-    if len(direct) % 4:
-        return direct
-    return direct.reshape(-1, 4, *direct.shape[1:]).mean(axis=1)
-
-
-def lit_cells(light, i):
-    """Which cells of a receiver are not inside of furniture: those that some candidate lights."""
-    lit = cell_means(light.direct[i]).max(axis=1) > 0
-    return lit if lit.any() else np.ones_like(lit)
-
-
 def mean_row(light, i):
     return light.direct[i].mean(axis=0) + light.reflected[i]
 
 
-def rows_of(transfer, goals, light, daylight, lit, factors):
-    """The rows of goals. lit: cells that count, by receiver. factors: on what each goal gets, from luminaires as built."""
+def rows_of(transfer, goals, light, daylight, factors):
+    """The rows of goals. factors: on what each goal gets, from luminaires as built."""
     rows = []
     for goal in goals:
         factor = factors.get((goal.kind, goal.target), 1.0)
@@ -84,8 +70,8 @@ def rows_of(transfer, goals, light, daylight, lit, factors):
         mean, day = mean_row(light, i) * factor, mean_row(daylight, i)[0] if daylight else 0.0
         if goal.kind == "uniformity":
             least = min(goal.value / factor, 1.0)
-            at = light.at_cells(i, lit[i]).mean(axis=0)
-            day_at = daylight.at_cells(i, lit[i]).mean(axis=0)[:, 0] if daylight else np.zeros(len(at))
+            at = light.at_cells(i, transfer.receivers[i]).mean(axis=0)
+            day_at = daylight.at_cells(i, transfer.receivers[i]).mean(axis=0)[:, 0] if daylight else np.zeros(len(at))
             average, day_average = at.mean(axis=0), day_at.mean()
             size = next((g.value for g in goals if g.kind == "illuminance" and g.target == goal.target), 100.0)
             for row, there in zip(at, day_at):
@@ -100,6 +86,7 @@ class Answer:
     goal: object
     value: float
     error: float  # standard error of value
+    place: np.ndarray = None  # where the least is, of uniformity
 
     def met(self, tolerance=0.0):
         if self.goal.kind in ("most", "ugr"):
@@ -108,7 +95,7 @@ class Answer:
         return self.value >= self.goal.value * (1 - tolerance)
 
 
-def answers(transfer, goals, light, levels, daylight, lit):
+def answers(transfer, goals, light, levels, daylight):
     """What the goals get with these levels, and the standard errors of what is reflected."""
     found = []
     for goal in goals:
@@ -123,15 +110,17 @@ def answers(transfer, goals, light, levels, daylight, lit):
         error = light.error(i, levels)
         value = float(mean_row(light, i) @ levels) + (mean_row(daylight, i)[0] if daylight else 0)
         if goal.kind == "uniformity":
-            found.append(uniformity(goal, light.at_cells(i, lit[i]) @ levels + (daylight.at_cells(i, lit[i])[..., 0] if daylight else 0)))
+            receiver = transfer.receivers[i]
+            at = light.at_cells(i, receiver) @ levels + (daylight.at_cells(i, receiver)[..., 0] if daylight else 0)
+            found.append(uniformity(goal, at, receiver))
         else:
             found.append(Answer(goal, value, error))
     return found
 
 
-def uniformity(goal, at):
+def uniformity(goal, at, receiver):
     """The Answer for repeats of the illuminance of cells: least over mean, of the means of all repeats."""
     middle = at.mean(axis=0)  # the least of noisy values is too low
     values = at[:, middle.argmin()] / at.mean(axis=1)
     error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
-    return Answer(goal, float(middle.min() / middle.mean()), float(error))
+    return Answer(goal, float(middle.min() / middle.mean()), float(error), receiver.cell_means(receiver.points)[middle.argmin()])

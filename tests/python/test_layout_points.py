@@ -1,0 +1,137 @@
+"""Points of goals in rsphere.layout: margins, points inside of furniture, rows, and what is said of them.
+
+PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the package rsphere.
+"""
+import os
+import re
+import tempfile
+import unittest
+import xml.dom.minidom
+
+import numpy as np
+
+from rsphere.layout.room import Polygon, inside_margin, surface_of, vector_of
+from rsphere.layout.search import even_choices
+from run_here import built, run_here
+
+CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
+L_SHAPE = np.array([[0, 0, 1], [6, 0, 1], [6, 2, 1], [2, 2, 1], [2, 6, 1], [0, 6, 1.0]])
+
+ROOM = """void plastic white 0 0 5 .6 .6 .6 0 0
+void metal steel 0 0 5 .7 .7 .7 .8 .1
+white polygon floor 0 0 12 0 0 0 8 0 0 8 5 0 0 5 0
+white polygon ceiling 0 0 12 0 0 3 0 5 3 8 5 3 8 0 3
+white polygon south 0 0 12 0 0 0 0 0 3 8 0 3 8 0 0
+white polygon north 0 0 12 0 5 0 8 5 0 8 5 3 0 5 3
+white polygon west 0 0 12 0 0 0 0 5 0 0 5 3 0 0 3
+white polygon east 0 0 12 8 0 0 8 0 3 8 5 3 8 5 0
+"""
+
+
+def box(material, name, low, high):
+    """A closed box, its faces outwards."""
+    (x, y, z), (a, b, c) = low, high
+    faces = {"1540": (x, y, z, x, y, c, a, y, c, a, y, z), "4620": (x, y, z, x, b, z, x, b, c, x, y, c), "6457": (x, y, c, x, b, c, a, b, c, a, y, c),
+             "3267": (x, b, z, a, b, z, a, b, c, x, b, c), "5137": (a, y, z, a, y, c, a, b, c, a, b, z), "2310": (x, y, z, a, y, z, a, b, z, x, b, z)}
+    faces["6457"] = (x, y, c, a, y, c, a, b, c, x, b, c)
+    faces["2310"] = (x, y, z, x, b, z, a, b, z, a, y, z)
+    return "".join(f"{material} polygon {name}.{face} 0 0 12 {' '.join(map(str, at))}\n" for face, at in faces.items())
+
+
+class Shapes(unittest.TestCase):
+    def test_margin(self):
+        """A rectangle and an L, whose bounding rectangle has the margin."""
+        square = Polygon("p", "m", np.array([[1, 1, 0], [5, 1, 0], [5, 4, 0], [1, 4, 0.0]]))
+        np.testing.assert_allclose(sorted(map(tuple, inside_margin(square, 1))), [(2, 2, 0), (2, 3, 0), (4, 2, 0), (4, 3, 0)])
+        self.assertEqual(len(inside_margin(square, 1.6)), 0)
+        self.assertIs(inside_margin(square, 0), square.corners)
+        cut = inside_margin(Polygon("l", "m", L_SHAPE), 0.5)
+        self.assertAlmostEqual(np.linalg.norm(vector_of(cut)), 5 * 5 - 3.5 * 3.5)
+        back = inside_margin(Polygon("l", "m", L_SHAPE[::-1]), 0.5)
+        self.assertLess(vector_of(back)[2], 0)
+
+    def test_covered_points(self):
+        """What is left has the area of the quarters of cells around the open points, whichever these are."""
+        random = np.random.default_rng(3)
+        for _ in range(5):
+            surface = surface_of([Polygon("p", "m", L_SHAPE)], "p", ("goals.txt", 1), 1.0, spacing=0.5, margin=0.25)
+            self.assertAlmostEqual(surface.area(), 5.5 * 5.5 - 3.75 * 3.75)
+            points, quarter = len(surface.points), np.linalg.norm(surface.cells[0, 1] - surface.cells[0, 0]) ** 2 / 4
+            covered = random.random(points) < 0.4
+            surface.leave_out(covered)
+            self.assertEqual((len(surface.points), len(surface.covered)), ((~covered).sum(), covered.sum()))
+            self.assertAlmostEqual(surface.area(), (~covered).sum() * quarter)
+            self.assertLess(len(surface.outlines), (~covered).sum(), "strips")
+            for corners, normal in surface.outlines:
+                np.testing.assert_allclose(vector_of(corners) / np.linalg.norm(vector_of(corners)), normal, atol=1e-9)
+
+    def test_even_rows(self):
+        self.assertEqual(even_choices([0, 1, 3]), [{0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}])
+        self.assertIn({0, 2, 4}, even_choices([0, .8, 1.6, 2.4, 3.2]))
+        self.assertNotIn({0, 1, 3}, even_choices([0, .8, 1.6, 2.4, 3.2]))
+
+
+class Layouts(unittest.TestCase):
+    def run_on(self, lines, furniture, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            goals, room, out = (os.path.join(folder, name) for name in ("goals.txt", "room.rad", "out"))
+            lines = [f"luminaire panel {os.path.join(CASES, 'panel.ies')}", *lines]
+            for path, text in (goals, "\n".join(lines)), (room, ROOM + furniture):
+                with open(path, "w", encoding="ascii") as stream:
+                    stream.write(text + "\n")
+            run = run_here([built("rsphere-layout"), "-o", out, "--no-plan", *options, goals, room])
+            self.assertEqual(run.stderr, "")
+            with open(os.path.join(out, "page.html"), encoding="utf-8") as stream:
+                page = stream.read()
+        figure = xml.dom.minidom.parseString(page[page.find("<svg") : page.find("</svg>") + 6])
+        return run, page, figure
+
+    def values(self, run):
+        """By kind of goal: planned and found."""
+        rows = [line.replace(" lx", "").split() for line in run.stdout.splitlines() if re.match("illuminance|uniformity", line)]
+        return {row[0]: (float(row[3]), float(row[4])) for row in rows}
+
+    def test_margin_beside_mirrors(self):
+        """Light that went straight to the margin counted as if mirrors brought it: 5% too much."""
+        lines = ["grid panel ceiling spacing 2 margin 1", "illuminance floor 300 margin 1"]
+        run, _, _ = self.run_on(lines, box("steel", "beam", (1, 2.4, 2.2), (7, 2.5, 2.4)), "-c", "32", "-d", "512", "-b", "2")
+        planned, found = self.values(run)["illuminance"]
+        self.assertAlmostEqual(planned / found, 1, delta=0.012)
+
+    def test_floor_under_furniture(self):
+        """A chest covers a fifth of the floor, and not whole cells: its points took part in means and uniformity."""
+        chest = box("white", "chest", (5.9, .001, 0), (7.999, 4.999, .5))
+        lines = ["place panel 2 2.5 2.9", "place panel 4.5 2.5 2.9", "illuminance floor 100 uniformity .01"]
+        run, page, figure = self.run_on(lines, chest, "-c", "64", "-d", "512", "-b", "2")
+        mean, evenness = self.values(run).values()
+        self.assertAlmostEqual(mean[0] / mean[1], 1, delta=0.02, msg=run.stdout)
+        self.assertAlmostEqual(evenness[0], evenness[1], delta=0.03, msg=run.stdout)
+        self.assertGreater(evenness[1], 0.15, run.stdout)
+        text = re.search(r"^floor: ([0-9]+) of ([0-9]+) points are left out, .* under chest \(\1\)\.$", run.stdout, re.MULTILINE)
+        self.assertAlmostEqual(int(text[1]) / int(text[2]), 2.1 / 8, delta=0.04)
+        self.assertRegex(run.stdout, r"(?m)^floor is darkest at [0-9.]+ [0-9.]+: [0-9]+% of the mean\.$")
+        words = [node.firstChild.data for node in figure.getElementsByTagName("text")]
+        self.assertIn("chest", words)
+        self.assertTrue(any("ring: where a goal is darkest" in w for w in words))
+        self.assertIn(text[0][:-1].split(";")[0], page)
+
+    def test_watts_of_dimmed_luminaires(self):
+        """The terminal had the watts of the luminaires, and the page those of the scene, without a word."""
+        lines = ["place panel 4 2.5 2.9", "dimming yes", "illuminance floor 20"]
+        run, page, _ = self.run_on(lines, "", "-c", "16", "-d", "128", "-b", "1")
+        all_watts, dimmed = re.search(r"Layout: 1 luminaires, ([0-9]+) W.*; dimmed: ([0-9]+) W", run.stdout).groups()
+        self.assertLess(int(dimmed), int(all_watts))
+        self.assertIn(f"1 luminaires, {all_watts} W, {dimmed} W as dimmed", page)
+
+    def test_rows_are_even(self):
+        lines = ["grid panel ceiling spacing 1 margin .5", "rows", "most 9", "illuminance floor 300 uniformity .3"]
+        run, page, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "5")
+        cells = re.findall(r'<tr><td class="words">[0-9]+</td><td class="words">panel</td><td class="">([0-9.]+)</td><td class="">([0-9.]+)</td>', page)
+        places = np.array(cells, dtype=float)
+        self.assertGreater(len(places), 3, run.stdout)
+        for values in places.T:
+            self.assertLessEqual(len(np.unique(np.round(np.diff(np.unique(values)), 6))), 1, places)
+
+
+if __name__ == "__main__":
+    unittest.main()
