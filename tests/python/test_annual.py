@@ -1,4 +1,5 @@
-"""rsphere-annual: faults of weather files and coefficients are one line with file and line, and missing hours are left out."""
+"""rsphere-annual with coefficients of a file: faults of it and of weather files are one line with file and line, and nothing that
+is left out is left out silently."""
 import os
 import tempfile
 import unittest
@@ -13,15 +14,19 @@ EPW = "LOCATION,PLACE,-,X,src,1,50.0,10.0,1.0,100" + "\nX" * 7 + "\n"
 
 
 def epw(place="P", irradiances="300,150"):
-    """A day of an .epw that is dark but for one hour."""
-    rows = (f"2000,6,1,{hour},60,C9{',1' * 8},{irradiances if hour == 12 else '0,0'},0,0\n" for hour in range(1, 25))
+    """A day of an .epw that is dark but for one hour, and another that is as bright unless `irradiances` are given."""
+    lit = {12: irradiances, 13: "300,150"}
+    rows = (f"2000,6,1,{hour},60,C9{',1' * 8},{lit.get(hour, '0,0')},0,0\n" for hour in range(1, 25))
     return EPW.replace("PLACE", place) + "".join(rows)
 
 
 def coefficients(order="<", header="", values=146 * 3, **changes):
-    words = {"NROWS": "1", "NCOLS": "146", "NCOMP": "3", **changes}
+    words = {"NROWS": "1", "NCOLS": "146", "NCOMP": "3", "FORMAT": "float", **changes}
     lines = "".join(f"{name}={word}\n" for name, word in words.items() if word)
-    return f"#?RADIANCE\n{lines}{header}FORMAT=float\n\n".encode() + np.full(values, 0.01, order + "f4").tobytes()
+    numbers = np.full(values, 0.01, order + ("f8" if words["FORMAT"] == "double" else "f4")).tobytes()
+    if words["FORMAT"] == "ascii":
+        numbers = "\n".join(values * ["1e-2"]).encode() + b"\n"
+    return f"#?RADIANCE\n{lines}{header}\n".encode() + numbers
 
 
 class Annual(unittest.TestCase):
@@ -46,7 +51,7 @@ class Annual(unittest.TestCase):
     def light(self, *arguments, **named):
         status, out, err = self.run_annual(*arguments, **named)
         self.assertEqual(status, 0, err)
-        return float(out.split("Light of the year: ")[1].split()[0]), err
+        return float(out.split("light of the year: ")[1].split()[0]), err
 
     def test_rows_of_wea_are_checked(self):
         for row, said in (
@@ -69,10 +74,12 @@ class Annual(unittest.TestCase):
         self.refuse("has no hours", "")
         self.refuse("has no hours", EPW, name="w.epw")
         self.refuse("has no hour from 8 to 18 h", WEA + DAY[2])
+        self.refuse("has no hour with diffuse light", WEA + "6 1 12.5 0 0")
 
     def test_missing_hours_are_left_out_and_said(self):
         light, said = self.light(epw(irradiances="9999,9999"), name="w.epw")
-        self.assertEqual(light, 0)
+        self.assertLess(light, 0.6 * self.light(epw(), name="w.epw")[0])
+        self.assertGreater(light, 0)
         self.assertIn("1 of 24 hours have no irradiance (9999)", said)
         self.refuse("w.epw:20: the direct normal irradiance", epw(irradiances="9998,1"), name="w.epw")
 
@@ -81,20 +88,51 @@ class Annual(unittest.TestCase):
 
     def test_a_part_of_a_year_is_said(self):
         self.assertIn("has 24 hours, fewer than a year's 8760", self.light(WEA + "\n".join(DAY))[1])
-        self.refuse("has 9600 rows, more than a year has hours", WEA + "\n".join(400 * DAY))
+        self.refuse("w.wea:31: the hour is not after", WEA + "\n".join(400 * DAY))
 
     def test_coefficients_of_the_other_byte_order(self):
         wea = WEA + "\n".join(DAY)
         self.assertEqual(self.light(wea)[0], self.light(wea, coefficients(">", "BigEndian=1\n"))[0])
         self.assertGreater(self.light(wea)[0], 0)
 
+    def test_order_of_hours(self):
+        """Repeated hours counted twice, and a file backwards was as good as any."""
+        self.refuse("w.wea:31: the hour is not after the one before it", WEA + "\n".join(DAY + DAY))
+        self.refuse("w.wea:8: the hour is not after the one before it", WEA + "\n".join(DAY[::-1]))
+        self.refuse("w.wea:8: the hour is not after", WEA + f"{DAY[12]}\n{DAY[12]}")
+
+    def test_a_place_on_the_other_side_of_the_earth(self):
+        """The sun was down by day, and its light was left out without a word."""
+        self.assertEqual(self.light(WEA + "\n".join(DAY))[1].count("\n"), 1)
+        said = self.light(WEA.replace("time_zone -15", "time_zone 165") + "\n".join(DAY))[1]
+        self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light; are its latitude")
+
+    def test_kinds_of_coefficients(self):
+        wea = WEA + "\n".join(DAY)
+        for made in (coefficients(FORMAT="ascii"), coefficients(FORMAT="double"), coefficients(NCOMP="1", values=146)):
+            self.assertAlmostEqual(self.light(wea)[0], self.light(wea, made)[0], delta=0.01 * self.light(wea)[0])
+        self.refuse("co.f: has a coefficient that is not a number", wea, coefficients(FORMAT="ascii") + b"x\n")
+        self.refuse("co.f: has 439 coefficients, not 438", wea, coefficients(FORMAT="ascii") + b"1\n")
+        self.refuse("co.f: has a coefficient below 0", wea, coefficients(FORMAT="ascii")[:-5] + b"-1\n")
+
+    def test_command_lines(self):
+        for words, said in (([], "the following arguments are required: --weather"), (["--weather", "w"], "needs scene files, or --coeff"),
+                            (["--weather", "w", "r.rad", "-d", "x"], "argument -d/--divisions: invalid int"),
+                            (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
+                            (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"),
+                            (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both")):
+            with self.subTest(words):
+                run = run_here([built("rsphere-annual"), *words])
+                self.assertEqual((run.returncode, run.stdout, run.stderr.count("\n")), (1, "", 1), run.stderr)
+                self.assertIn(said, run.stderr)
+
     def test_coefficients_of_another_shape(self):
         for said, made in (
-            ("co.f: has coefficients of NCOMP=1", coefficients(NCOMP="1")),
+            ("co.f: has coefficients of NCOMP=2", coefficients(NCOMP="2")),
             ("co.f: has 147 bins", coefficients(NCOLS="147")),
             ("co.f: its header lacks NROWS=", coefficients(NROWS="")),
             ("co.f: has 4 bytes of coefficients, not 1752", coefficients(values=1)),
-            ("co.f: has no header with FORMAT=float", b"1 2 3"),
+            ("co.f: has no header with FORMAT=ascii", b"1 2 3"),
         ):
             with self.subTest(said):
                 self.refuse(said, WEA + "\n".join(DAY), made)

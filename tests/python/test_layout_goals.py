@@ -200,7 +200,7 @@ class Goals(unittest.TestCase):
 
     def test_names_of_desks_keep_clear_of_luminaires(self):
         """The number of a spot was printed over "desk1" in the drawing."""
-        from rsphere.layout.page import free_corner
+        from rsphere.layout.drawing import free_corner
 
         desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
         self.assertEqual(free_corner(desk, "desk1", []), (94, 246))

@@ -1,90 +1,152 @@
-"""Daylight of a year at sensors: sDA and UDI, from a weather file and coefficients of the sky."""
-import math
+"""From a scene and a weather file to verdicts on daylight."""
+import os
 import sys
+import tempfile
 
 import numpy as np
 
 from ..command import Options
-from ..fault import fault
-from .sky import read_weather, sky_matrix
+from ..fault import Fault, fault
+from ..layout.room import read_polygons
+from ..progress import PROGRESS
+from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
+from .matrix import read_coefficients
+from .report import Report
+from .sensors import read_sensors, sensors_on
+from .shades import group_of
+from .verdicts import FROM, UNTIL, verdicts_of
+from .weather import read_weather
 
-TEXT = """\
-The weather is .wea or .epw. Coefficients are what rcontrib -I -faf -y N wrote for the bins of patches.cal, or of
-reinhart.cal, and an even sky of radiance 1. Writes da.txt and udi.txt, for each sensor the share (%) of the hours from 8 to 18 h of all days
-with at least 300 lx, and with 100 to 3000 lx, and prints what the room has."""
-
-VISIBLE = np.array([0.265, 0.670, 0.065], np.float32)  # shares of red, green and blue in what the eye sees
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
+LATE = 0.05  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
+MOST_ESTIMATES = 512
+
+TEXT = """\\
+The scene has no sky; the weather (.epw or .wea) brings it. Verdicts are printed with their sources. They, what each sensor has,
+plans and a page for the browser (page.html) go into the folder of -o. rsphere-annual(1) describes the method."""
 
 
-def read_coefficients(path):
-    """Sensors by bins, and factor of patches.cal. Raises Fault."""
-    try:
-        with open(path, "rb") as file:
-            header, _, numbers = file.read().partition(b"\n\n")
-    except OSError as error:
-        raise fault(path, None, f"cannot be read: {error.strerror}") from None
-    words = dict(line.strip().split(b"=", 1) for line in header.split(b"\n") if b"=" in line)
-    if words.get(b"FORMAT") != b"float":
-        raise fault(path, None, "has no header with FORMAT=float: coefficients are the output of rcontrib -faf")
-    shape = []
-    for name in (b"NROWS", b"NCOLS", b"NCOMP"):
-        word = words.get(name, b"")
-        if not word.isdigit() or not 0 < len(word) < 10 or not int(word):
-            raise fault(path, None, f"its header lacks {name.decode()}=, a whole number: coefficients are the output of rcontrib -y N")
-        shape.append(int(word))
-    sensors, bins, channels = shape
-    if channels != 3:
-        raise fault(path, None, f"has coefficients of NCOMP={channels}, not of red, green and blue (3)")
-    factor = round(math.sqrt(max(1, (bins - 2) / 144)))
-    if bins != 144 * factor * factor + 2:
-        raise fault(path, None, f"has {bins} bins, but patches.cal and reinhart.cal have 146, 578, 1298, 2306 and so on")
-    if len(numbers) != 4 * sensors * bins * channels:
-        raise fault(path, None, f"has {len(numbers)} bytes of coefficients, not {4 * sensors * bins * channels}")
-    order = ">" if words.get(b"BigEndian") == b"1" else "<"
-    coefficients = np.frombuffer(numbers, order + "f4").reshape(shape)
-    if not np.isfinite(coefficients).all():
-        raise fault(path, None, "has a coefficient that is not a finite number")
-    return coefficients.astype(np.float32) @ VISIBLE, factor
+def arguments():
+    parser = Options("scene...", TEXT)
+    parser.add_argument("scene", nargs="*")
+    parser.add_argument("--weather", required=True, metavar="FILE", help="the hours of a year: .epw or .wea")
+    parser.add_argument("--sensors", metavar="FILE", help="x y z dx dy dz, one a line; otherwise a grid")
+    parser.add_argument("--on", action="append", metavar="NAME", help="polygon or modifier with a grid of sensors: floor")
+    parser.add_argument("--height", type=float, default=0.85, metavar="H", help="of the grid above it")
+    parser.add_argument("--spacing", type=float, default=0.5, metavar="D", help="largest, of the grid")
+    parser.add_argument("--margin", type=float, default=0.0, metavar="M", help="without sensors, along edges")
+    parser.add_argument("--shades", action="append", default=[], metavar="NAME[=X]", help="windows with blinds: modifier; transmittance or file")
+    parser.add_argument("--coefficients", metavar="FILE", help="of rcontrib or rfluxmtx, instead of a scene")
+    parser.add_argument("-b", "--bounces", type=int, default=8, metavar="N", help="reflections that are followed")
+    parser.add_argument("-d", "--divisions", type=int, default=256, metavar="N", help="rays of a sensor (-ad) in each estimate")
+    parser.add_argument("-e", "--estimates", type=int, default=ESTIMATES, metavar="N", help="independent ones, averaged")
+    parser.add_argument("--accuracy", type=float, metavar="X", help="estimates are added until noise turns no verdict, or to this error")
+    parser.add_argument("-n", "--threads", type=int, default=0, metavar="N", help="0: one for each core")
+    parser.add_argument("-t", "--title", default="", metavar="TEXT", help="of the page")
+    parser.add_argument("-o", "--output", default="annual", metavar="FOLDER", help="for the results")
+    given = parser.parse_args()
+    for name, least, most in (("bounces", 0, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096),
+                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("accuracy", 1e-5, 1)):
+        value = getattr(given, name)
+        if value is not None and not least <= value <= most:
+            raise Fault(f"--{name} must be from {least:g} to {most:g}")
+    if bool(given.scene) == bool(given.coefficients):
+        raise Fault("needs scene files, or --coefficients alone")
+    if given.on and given.sensors:
+        raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
+    given.on = given.on or ([] if given.sensors or given.coefficients else ["floor"])
+    return given
 
 
-def say(file, text):
+def warn(file, text):
+    PROGRESS.clear()
     print(f"rsphere-annual: warning - {file}: {text}", file=sys.stderr)
 
 
-def save(name, values):
-    try:
-        np.savetxt(name, values, "%.2f")
-    except OSError as error:
-        raise fault(name, None, f"cannot be written: {error.strerror}") from None
+def check_weather(file, weather, dark_sun):
+    """Warns of what a year lacks."""
+    n, missing = len(weather.hours), weather.missing
+    if n + missing > HOURS_OF_LEAP_YEAR:
+        raise fault(file, None, f"has {n + missing} rows, more than a year has hours: each must be an hour")
+    if missing:
+        warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
+    if n + missing < HOURS_OF_YEAR:
+        warn(file, f"has {n + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
+    direct = np.array([row[3] for row in weather.hours])
+    late = direct[dark_sun].sum() / max(direct.sum(), 1e-9)
+    if late > LATE:
+        warn(file, f"{late:.0%} of the direct light is at hours without a sun or without diffuse light; are its latitude, longitude and time zone right?")
+
+
+def estimates(light, given):
+    """Adds estimates until there are enough. Ctrl-C leaves those that are there."""
+    PROGRESS.begin("Light of sky and sun", 2 * given.estimates * light.pass_count())
+    while True:
+        light.add()
+        n = light.counts.sum()
+        if n < given.estimates or (given.accuracy and n % ESTIMATES):
+            continue
+        if not given.accuracy or n >= MOST_ESTIMATES or light.error() <= given.accuracy:
+            return
+        if not any(v.hangs() for v in verdicts_of(light.year)):
+            return
+        PROGRESS.count += 2 * ESTIMATES * light.pass_count()
+
+
+def year_of_scene(given, weather, notes):
+    """The Year, the sensors and, for each work plane, its name and which of them are on it."""
+    polygons = read_polygons(given.scene)
+    if given.on:
+        sensors, weights, planes = sensors_on(given, polygons)
+    else:
+        sensors, planes = read_sensors(given.sensors), []
+        weights = np.full(len(sensors), 1 / len(sensors))
+    groups = [group_of(word, polygons, sensors[:, :3]) for word in given.shades]
+    with tempfile.TemporaryDirectory() as folder:
+        check_sky(given.scene, polygons, folder)
+        light = Light(given.scene, sensors, weights, weather, groups, folder,
+                      Settings(given.bounces, given.divisions, max(16, given.divisions // 4), threads=given.threads))
+        check_weather(given.weather, weather, light.dark_sun)
+        try:
+            estimates(light, given)
+        except KeyboardInterrupt:
+            if light.counts.sum() < 2:
+                raise
+            PROGRESS.clear()
+            notes.append(f"Interrupted after {light.counts.sum()} estimates.")
+    dark = int((light.year.open.sum(axis=(0, 2)) == 0).sum())
+    if dark:
+        warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something")
+    notes += light.notes()
+    return light.year, sensors, planes
 
 
 def main():
-    parser = Options("", TEXT)
-    parser.add_argument("--weather", required=True, metavar="FILE", help="the hours of a year")
-    parser.add_argument("--coefficients", required=True, metavar="FILE", help="what sensors get of each patch of the sky")
-    given = parser.parse_args()
-    coefficients, factor = read_coefficients(given.coefficients)
+    given = arguments()
     weather = read_weather(given.weather)
-    hours, missing, _ = weather
-    if len(hours) + missing > HOURS_OF_LEAP_YEAR:
-        raise fault(given.weather, None, f"has {len(hours) + missing} rows, more than a year has hours: each must be an hour")
-    sky = sky_matrix(weather, factor, lambda row: 8 < row[2] < 18)
-    if not len(sky):
-        raise fault(given.weather, None, "has no hour from 8 to 18 h")
-    if missing:
-        say(given.weather, f"{missing} of {len(hours) + missing} hours have no irradiance (9999) and are left out")
-    if len(hours) + missing < HOURS_OF_YEAR:
-        say(given.weather, f"has {len(hours) + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
-    illuminance = coefficients @ sky.T  # lx: sensors by hours
-    autonomy = (illuminance >= 300).mean(axis=1)
-    useful = ((illuminance >= 100) & (illuminance <= 3000)).mean(axis=1)
-    save("da.txt", 100 * autonomy)
-    save("udi.txt", 100 * useful)
-    print(f"{illuminance.shape[0]} sensors, {illuminance.shape[1]} hours from 8 to 18 h")
-    for lux in (300, 500, 750):
-        enough = (illuminance >= lux).mean(axis=1) >= 0.5
-        print(f"sDA {lux} lx / 50%: {100 * enough.mean():.1f}% of the sensors")
-    print(f"300 lx or more: {100 * autonomy.mean():.1f}% of the hours, mean of the sensors")
-    print(f"UDI, 100 to 3000 lx: {100 * useful.mean():.1f}% of the hours, mean of the sensors")
-    print(f"Light of the year: {illuminance.mean(axis=0).sum() / 1e6:.3f} Mlx h, mean of the sensors")
+    if not occupied_hours(np.array(weather.hours, float)):
+        raise fault(given.weather, None, f"has no hour from {FROM} to {UNTIL} h")
+    if not any(row[4] for row in weather.hours):
+        raise fault(given.weather, None, "has no hour with diffuse light")
+    try:
+        os.makedirs(given.output, exist_ok=True)
+    except OSError as error:
+        raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
+    notes = []
+    if given.coefficients:
+        coefficients, factor = read_coefficients(given.coefficients)
+        year, dark_sun = light_of_coefficients(coefficients, factor, weather)
+        check_weather(given.weather, weather, dark_sun)
+        notes.append("The sun is spread over patches of the sky: there is no ASE, no shade is lowered, and errors are not known.")
+        sensors, planes = np.zeros((len(coefficients), 0)), []
+    else:
+        year, sensors, planes = year_of_scene(given, weather, notes)
+    notes.insert(0, f"{len(sensors)} sensors; {year.all_hours} hours of {os.path.basename(given.weather)}, {year.occupied_hours} from 8 to 18 h.")
+    report = Report(year, list(verdicts_of(year)), notes)
+    text = report.text()
+    print(text, end="")
+    report.write(given.output, "table.txt", text)
+    report.write_sensors(given.output, sensors)
+    report.write_page(given, planes)
+    print(f"{os.path.join(given.output, 'page.html')}: the page")
+    return 0

@@ -1,4 +1,4 @@
-"""Luminance of patches of the sky hour by hour, from a weather file: a sky matrix, as RADIANCE's gendaymtx makes it.
+"""Luminance of patches of the sky, and the sun, hour by hour, from rows of a weather file.
 
 The patches are those of patches.cal: Tregenza's 145, each divided into factor x factor (Reinhart), and the ground as number 0.
 
@@ -6,13 +6,11 @@ The patches are those of patches.cal: Tregenza's 145, each divided into factor x
 - Perez, Ineichen, Seals, Michalsky, Stewart 1990, "Modeling daylight availability and irradiance components from direct and global
   irradiance": clearness, brightness, luminous efficacies
 """
-import csv
 import math
-import re
+from typing import NamedTuple
 
 import numpy as np
-from ..fault import fault, lines_of, number, whole
-from .sun import MONTHS, air_mass, day_of_year, sun_position
+from .sun import air_mass, day_of_year, sun_position
 
 # By clearness, from overcast to clear: a1 to a4 of the first parameter, then those of b, c, d, e (1993, table 1).
 LUMINANCE = np.array("""
@@ -35,71 +33,6 @@ DIRECT = [(57.2, -4.55, -2.98, 117.12), (98.99, -3.46, -1.21, 12.38), (109.83, -
 WATER = math.exp(0.07 * 11 - 0.075)  # at a dew point of 11 degrees
 SOLAR_CONSTANT = 1367  # W/m2
 GROUND = 0.2  # its reflectance, beyond the ground of the scene
-LARGEST_IRRADIANCE = 1500  # W/m2; the sun has at most 1415 outside of the atmosphere, in January
-MISSING = re.compile(r" *9999\.?0* *")  # instead of an irradiance of an .epw
-WEA_PLACE = (("latitude", 1), ("longitude", -1), ("time_zone", -1))  # and the degrees north or east that 1 is
-WEA_HEADER = ("place", *(name for name, _ in WEA_PLACE), "site_elevation", "weather_data_file_units")
-
-
-def hour_of(file, line, date, middle, irradiances):
-    """A row of read_weather(). middle: how long the middle of the hour is before the time in the file."""
-    month = whole(date[0], file, line, "the month", 1, 12)
-    day = whole(date[1], file, line, "the day", 1, 29 if month == 2 else MONTHS[month - 1])
-    hour = number(date[2], file, line, "the hour", 2 * middle, 24) - middle
-    direct = number(irradiances[0], file, line, "the direct normal irradiance", 0, LARGEST_IRRADIANCE)
-    diffuse = number(irradiances[1], file, line, "the diffuse horizontal irradiance", 0, LARGEST_IRRADIANCE)
-    return [month, day, hour, direct, diffuse]
-
-
-def place_of(file, latitude, longitude, zone):
-    """Each is its word, its line, and the degrees north or east that 1 is."""
-    kinds = (("the latitude", latitude, 90), ("the longitude", longitude, 180), ("the time zone", zone, 225))
-    return [
-        unit * number(word, file, line, what, -most / abs(unit), most / abs(unit)) for what, (word, line, unit), most in kinds
-    ]
-
-
-def read_epw(file, lines):
-    place = next(csv.reader(lines[:1]))
-    if len(place) < 9:
-        raise fault(file, 1, f"LOCATION has {len(place)} fields instead of 10")
-    hours, missing = [], 0
-    for line, text in enumerate(lines[8:], 9):
-        row = next(csv.reader([text]), [])
-        if row and len(row) < 16:
-            raise fault(file, line, f"an hour has at least 16 fields, up to the diffuse horizontal irradiance, not {len(row)}")
-        if row and any(MISSING.fullmatch(word) for word in row[14:16]):
-            missing += 1
-        elif row:
-            hours.append(hour_of(file, line, row[1:4], 0.5, row[14:16]))
-    return hours, missing, place_of(file, (place[6], 1, 1), (place[7], 1, 1), (place[8], 1, 15))
-
-
-def read_wea(file, lines):
-    header, hours = {}, []
-    for line, words in enumerate((text.split() for text in lines), 1):
-        if len(words) > 1 and words[0] in WEA_HEADER and not hours:
-            header[words[0]] = words[1], line
-        elif words:
-            lacks = [name for name in WEA_HEADER if name not in header]
-            if lacks:
-                raise fault(file, line, f"the header lacks {lacks[0]}; the weather is an .epw, or a .wea as gendaymtx reads it")
-            if len(words) != 5:
-                raise fault(file, line, f"an hour is month, day, hour, direct normal and diffuse irradiance, not {len(words)} words")
-            hours.append(hour_of(file, line, words[:3], 0, words[3:]))
-    if hours and header["weather_data_file_units"][0] != "1":
-        raise fault(file, header["weather_data_file_units"][1], "weather_data_file_units must be 1: direct normal and diffuse, W/m2")
-    return hours, 0, place_of(file, *((*header[name], unit) for name, unit in WEA_PLACE)) if hours else []
-
-
-def read_weather(path):
-    """Rows of month, day, hour (the middle), direct normal and diffuse horizontal irradiance (W/m2); how many more the file marks as
-    missing; and latitude, longitude, meridian of the time zone, degrees north and east. The file is .wea or .epw. Raises Fault."""
-    lines = lines_of(path)
-    hours, missing, place = (read_epw if lines[0].startswith("LOCATION,") else read_wea)(path, lines)
-    if not hours:
-        raise fault(path, None, "has no hours with irradiance" if missing else "has no hours")
-    return hours, missing, place
 
 
 def patches(factor):
@@ -131,12 +64,19 @@ def parameters_of(kind, zenith, brightness):
     return a, b, c, d, e
 
 
-def sky_of(row, place, directions, solid_angles):
-    """Luminances (cd/m2) of the patches in one hour; None if the sun is down."""
-    month, day, hour, direct, diffuse = row
-    altitude, azimuth = sun_position(int(month), int(day), hour, *place)
-    if altitude <= 0 or diffuse <= 0:
-        return None
+class Daylight(NamedTuple):
+    """Of each hour of a list: what comes from the patches of the sky, and from the sun."""
+
+    luminance: np.ndarray  # (hours, patches), cd/m2, without the sun
+    sun: np.ndarray  # lx on a surface that faces it
+    to_sun: np.ndarray  # (hours, 3)
+    diffuse: np.ndarray  # lx of the sky on an unobstructed horizontal surface
+    dark: np.ndarray  # whether the sun is down, though the file has direct light
+
+
+def light_of(row, altitude):
+    """lx of the sky on a horizontal surface and of the sun on one that faces it, and the parameters of the sky's distribution."""
+    month, day, _, direct, diffuse = row
     zenith = min(math.pi / 2, max(math.radians(3), math.pi / 2 - altitude))
     extraterrestrial = SOLAR_CONSTANT * (1 + 0.033 * math.cos(2 * math.pi * day_of_year(int(month), int(day)) / 365))
     brightness = min(0.6, max(0.01, diffuse * air_mass(altitude) / extraterrestrial))
@@ -146,30 +86,40 @@ def sky_of(row, place, directions, solid_angles):
     by_sky = diffuse * (a + b * WATER + c * math.cos(zenith) + d * math.log(brightness))
     a, b, c, d = DIRECT[kind]
     by_sun = direct * max(0.0, a + b * WATER + c * math.exp(5.73 * zenith - 5) + d * brightness)
-
     if 1 <= kind <= 4:
         brightness = max(brightness, 0.2)  # below, the model's luminances may be negative (Perez 1993)
-    sun = np.array([math.cos(altitude) * math.sin(azimuth), math.cos(altitude) * math.cos(azimuth), math.sin(altitude)])
-    to_sun = np.arccos(np.clip(directions @ sun, -1, 1))
-    luminance = np.maximum(0, relative_luminances(parameters_of(kind, zenith, brightness), to_sun, directions[:, 2]))
-    luminance[0] = 0
-    luminance *= by_sky / (luminance * solid_angles * np.maximum(0, directions[:, 2])).sum()
-    luminance[0] = GROUND * (by_sky + by_sun * math.sin(altitude)) / math.pi
-    # The sun is spread over the four patches around it.
-    nearest = np.argpartition(to_sun[1:], 4)[:4] + 1
-    share = 1 / (to_sun[nearest] ** 2 + 0.1 * solid_angles[nearest])
-    luminance[nearest] += by_sun * share / share.sum() / solid_angles[nearest]
-    return luminance
+    return by_sky, by_sun, parameters_of(kind, zenith, brightness)
 
 
-def sky_matrix(weather, factor, wanted=lambda row: True):
-    """Luminances (cd/m2): rows are the hours of read_weather() that are wanted, columns the patches. All are 0 by night."""
-    hours, _, place = weather
+def daylight_of(rows, place, factor):
+    """The Daylight of rows of read_weather(). All is 0 by night."""
     directions, solid_angles = patches(factor)
-    chosen = [row for row in hours if wanted(row)]
-    matrix = np.zeros((len(chosen), len(solid_angles)), np.float32)
-    for out, row in zip(matrix, chosen):
-        found = sky_of(row, place, directions, solid_angles)
-        if found is not None:
-            out[:] = found
-    return matrix
+    projected = solid_angles * np.maximum(0, directions[:, 2])
+    n = len(rows)
+    found = Daylight(np.zeros((n, len(solid_angles)), np.float32), np.zeros(n), np.tile([0.0, 0, -1], (n, 1)), np.zeros(n), np.zeros(n, bool))
+    for i, row in enumerate(rows):
+        altitude, azimuth = sun_position(int(row[0]), int(row[1]), row[2], *place)
+        if altitude <= 0 or row[4] <= 0:
+            found.dark[i] = row[3] > 0
+            continue
+        by_sky, by_sun, parameters = light_of(row, altitude)
+        sun = np.array([math.cos(altitude) * math.sin(azimuth), math.cos(altitude) * math.cos(azimuth), math.sin(altitude)])
+        to_sun = np.arccos(np.clip(directions @ sun, -1, 1))
+        luminance = np.maximum(0, relative_luminances(parameters, to_sun, directions[:, 2]))
+        luminance[0] = 0
+        luminance *= by_sky / (luminance @ projected)
+        luminance[0] = GROUND * (by_sky + by_sun * math.sin(altitude)) / math.pi
+        found.luminance[i], found.sun[i], found.to_sun[i], found.diffuse[i] = luminance, by_sun, sun, by_sky
+    return found
+
+
+def with_sun(daylight, factor):
+    """The luminances of the patches with the sun spread over the four around it, as RADIANCE's gendaymtx does."""
+    directions, solid_angles = patches(factor)
+    luminance = daylight.luminance.copy()
+    for i in np.flatnonzero(daylight.sun):
+        to_sun = np.arccos(np.clip(directions @ daylight.to_sun[i], -1, 1))
+        nearest = np.argpartition(to_sun[1:], 4)[:4] + 1
+        share = 1 / (to_sun[nearest] ** 2 + 0.1 * solid_angles[nearest])
+        luminance[i, nearest] += daylight.sun[i] * share / share.sum() / solid_angles[nearest]
+    return luminance

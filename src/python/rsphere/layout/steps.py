@@ -10,11 +10,12 @@ import numpy as np
 
 from ..command import program
 from ..fault import Fault, fault
+from ..page import Page, table
 from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
 from .forward import Forward, daylight_of
-from .page import Page, drawing, table
+from .drawing import drawing
 from .room import read_polygons
 from .search import search
 from .standing import covered_text, darkest_text

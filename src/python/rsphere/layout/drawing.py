@@ -1,4 +1,4 @@
-"""The drawing of a layout from above (SVG), and the page for the browser: one file with everything in it."""
+"""The drawing of a layout from above (SVG)."""
 from html import escape
 
 import numpy as np
@@ -6,16 +6,6 @@ import numpy as np
 from .built import outline
 from .standing import tops
 
-STYLE = """
-:root { color-scheme: light dark; }
-body { font: 15px/1.5 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 1.8em; }
-table { border-collapse: collapse; } td, th { padding: .2em .9em .2em 0; text-align: right; border-bottom: 1px solid #8884; }
-td:first-child, th:first-child { text-align: left; } td.words, th.words { text-align: left; }
-.good, .bad { padding: .6em 1em; border-left: 5px solid #2a2; background: #2a22; } .bad { border-color: #c22; background: #c222; }
-.missed { color: #c22; font-weight: bold; } .note { opacity: .75; font-size: .9em; }
-figure { margin: 1em 0; background: white; overflow-x: auto; } svg { max-width: 100%; height: auto; } code { white-space: pre-wrap; }
-"""
 COLORS = ("#e8a200", "#2277cc", "#bb3377", "#228855", "#775544")  # of kinds of luminaires
 
 
@@ -116,37 +106,3 @@ def drawing(design, polygons, candidates, chosen, levels, title, darkest=()):
     parts.append(label(legend, 12, 20, bottom + 22))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="700" height="{bottom + 36:.0f}" viewBox="0 0 700 {bottom + 36:.0f}" '
             f'font-family="sans-serif"><rect width="100%" height="100%" fill="white"/>{"".join(parts)}{"".join(names)}</svg>\n')
-
-
-def table(head, rows, words=1):
-    """rows: lists of cells; a cell that begins with ! is shown as missed. words: columns of text at the left."""
-    def cell(tag, i, text):
-        kinds = [k for k, there in (("words", i < words), ("missed", text.startswith("!"))) if there]
-        return f'<{tag} class="{" ".join(kinds)}">{escape(text.removeprefix("!"))}</{tag}>'
-    lines = ["".join(cell("th", i, h) for i, h in enumerate(head))]
-    lines += ["".join(cell("td", i, c) for i, c in enumerate(row)) for row in rows]
-    return "<table>" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>\n"
-
-
-class Page:
-    def __init__(self, title):
-        self.title, self.body = title, ""
-
-    def heading(self, text):
-        self.body += f"<h2>{escape(text)}</h2>\n"
-
-    def note(self, text):
-        self.body += f'<p class="note">{escape(text)}</p>\n'
-
-    def banner(self, good, text):
-        self.body += f'<p class="{"good" if good else "bad"}">{escape(text)}</p>\n'
-
-    def add(self, markup):
-        self.body += markup
-
-    def figure(self, svg):
-        self.body += f"<figure>{svg[svg.find('<svg'):]}</figure>\n"
-
-    def html(self):
-        return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"/><title>{escape(self.title)}</title>'
-                f"<style>{STYLE}</style></head>\n<body><h1>{escape(self.title)}</h1>\n{self.body}</body></html>\n")

@@ -1,0 +1,87 @@
+"""The table of verdicts, what each sensor has, plans, and the page for the browser."""
+import os
+
+import numpy as np
+
+from ..fault import fault
+from ..page import Page, table
+from .sensors import draw
+from .verdicts import quantities_of
+
+HEAD = ["rule", "asked", "has", "+-", "met", "unsure sensors"]
+DRAWN = (("DA 300 lx", "autonomy"), ("UDI 300 to 3000 lx", "useful"), ("direct sun of 1000 lx", "sun"))
+
+
+def shown(verdict, known):
+    """The cells of a Verdict. known: whether there are errors."""
+    unit, factor = ("%", 100) if verdict.share else (" h", 1)
+    met = "yes" if verdict.met() else "!no"
+    return [verdict.rule, verdict.asked, f"{factor * verdict.value:.1f}{unit}", f"{factor * verdict.error:.1f}" if known else "",
+            met + (", noise could turn it" if verdict.hangs() else ""), str(verdict.unsure) if known and verdict.share else ""]
+
+
+class Report:
+    def __init__(self, year, verdicts, notes):
+        """notes: sentences on what was computed."""
+        self.year, self.verdicts, self.notes = year, verdicts, notes
+        self.known = len(year.lux) > 1
+        self.quantities = quantities_of(year)
+        self.sources = list(dict.fromkeys(v.source for v in verdicts))
+
+    def rows(self, source):
+        return [shown(v, self.known) for v in self.verdicts if v.source == source]
+
+    def means(self):
+        """Of the quantities: name, mean of the sensors, its standard error if it is known."""
+        for name, (values, errors, unit) in self.quantities.items():
+            factor = 100 if unit == "%" else 1
+            mean, error = (factor * float(self.year.weights @ x) for x in (values, errors))
+            yield [name, f"{mean:.1f}{'' if unit == '%' else ' '}{unit}", f"{error:.1f}" if self.known else ""]
+
+    def text(self):
+        rows = {s: [[c.removeprefix("!") for c in row] for row in self.rows(s)] for s in self.sources}
+        everything = [HEAD, *(row for s in self.sources for row in rows[s])]
+        widths = [max(len(row[i]) for row in everything) for i in range(len(HEAD))]
+        line = lambda row: "  ".join(c.ljust(w) if i in (0, 1, 4) else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()  # noqa: E731
+        lines = [*self.notes, ""]
+        for name, mean, error in self.means():
+            lines.append(f"{name}: {mean}{' +- ' + error if error else ''}, mean of the sensors")
+        lines += ["", line(HEAD)]
+        for s in self.sources:
+            lines += [f"{s}:", *(line(row) for row in rows[s])]
+        return "\n".join(lines) + "\n"
+
+    def write(self, folder, name, text):
+        path = os.path.join(folder, name)
+        try:
+            with open(path, "w", encoding="utf-8", errors="replace") as stream:
+                stream.write(text)
+        except OSError as error:
+            raise fault(path, None, f"cannot be written: {error.strerror}") from None
+
+    def write_sensors(self, folder, sensors):
+        """A line for each sensor: its place, what it has and the standard errors."""
+        names = [word for name in self.quantities for word in (name, "+-")]
+        lines = ["# " + "\t".join([*"xyz"[: sensors.shape[1]], *names])]
+        for i, place in enumerate(sensors[:, :3]):
+            cells = [f"{x:.5g}" for values, errors, unit in self.quantities.values() for x in np.array([values[i], errors[i]]) * (100 if unit == "%" else 1)]
+            lines.append("\t".join([*(f"{x:.9g}" for x in place), *cells]))
+        self.write(folder, "sensors.txt", "\n".join(lines) + "\n")
+
+    def write_page(self, given, planes):
+        """planes: the names of the work planes, and the indexes of their sensors."""
+        page = Page(given.title or "Daylight of a year")
+        for note in self.notes:
+            page.note(note)
+        for source in self.sources:
+            page.heading(source)
+            page.add(table(HEAD, self.rows(source), 2))
+        page.note("+-: standard error of what the room has. Unsure sensors are those that are within two standard errors of their limit.")
+        page.heading("Means of the sensors")
+        page.add(table(["quantity", "mean", "+-"], list(self.means())))
+        for name, chosen in planes:
+            for quantity, file in DRAWN:
+                values, _, unit = self.quantities[quantity]
+                path = os.path.join(given.output, f"{file}_{name}.svg" if len(planes) > 1 else f"{file}.svg")
+                page.figure(draw(given, name, values[chosen] * (100 if unit == "%" else 1), unit, f"{quantity}, 8 to 18 h ({unit}): {name}", path))
+        self.write(given.output, "page.html", page.html())

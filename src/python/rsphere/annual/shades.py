@@ -1,0 +1,84 @@
+"""Shades: groups of windows, each with its blinds up or lowered, and the rule of IES LM-83 by which they are lowered."""
+import os
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from ..fault import Fault, number
+from .verdicts import SUNNY
+
+TRANSMITTANCE, REFLECTANCE = 0.02, 0.5  # of lowered blinds (the first by LM-83), both diffuse
+PANE = 0.1  # reflectance of windows that are closed, about that of panes: while the light of other groups is computed
+ALLOWED = 0.02  # of the sensors may have SUNNY lx of direct sun (LM-83)
+MOST_COMBINED = 6  # groups of which all combinations are tried
+GAP, OVERLAP = 1e-4, 1e-3  # of a blind from its pane, and beyond its edges, by the pane's size: what passes beside it is negligible
+UP, LOWERED = 0, 1
+
+
+@dataclass
+class Group:
+    """Windows of one modifier."""
+
+    name: str
+    lowered: str  # scene text of the blinds
+    closed: str  # scene text that closes the windows
+
+
+def covers(polygons, sensors, material, name):
+    """Scene text of a material on polygons, on their side of the sensors."""
+    text = f"{material}\n"
+    for i, p in enumerate(polygons):
+        normal = p.vector() / np.linalg.norm(p.vector())
+        side = np.sign((sensors - p.corners[0]) @ normal).sum() or 1
+        middle = p.corners.mean(axis=0)
+        size = np.sqrt(np.linalg.norm(p.vector()))
+        corners = middle + (p.corners - middle) * (1 + OVERLAP) + np.sign(side) * normal * GAP * size
+        text += f"{name} polygon {name}.{i + 1}\n0\n0\n{corners.size} {' '.join(f'{v:.12g}' for v in corners.ravel())}\n"
+    return text
+
+
+def group_of(word, polygons, sensors):
+    """The Group of an argument of --shades: MODIFIER, MODIFIER=TRANSMITTANCE or MODIFIER=FILE of scene text."""
+    name, _, state = word.partition("=")
+    windows = [p for p in polygons if name in (p.modifier, p.name) and np.linalg.norm(p.vector()) > 0]
+    if not windows:
+        known = ", ".join(sorted({p.modifier for p in polygons})[:8])
+        raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
+    if state and os.path.exists(state):
+        with open(state, encoding="latin-1") as stream:
+            lowered = stream.read()
+    else:
+        t = number(state, "--shades " + word, None, "what is behind =", 0, 0.5) if state else TRANSMITTANCE
+        color = REFLECTANCE + t
+        lowered = covers(windows, sensors, f"void trans rsphere_blind 0 0 7 {color} {color} {color} 0 0 {t / color:.9g} 0", "rsphere_blind")
+    closed = covers(windows, sensors, f"void plastic rsphere_closed 0 0 5 {PANE} {PANE} {PANE} 0 0", "rsphere_closed")
+    return Group(name, lowered, closed)
+
+
+def states_by_rule(direct, means, weights):
+    """The state of each group in each hour: (hours, groups).
+
+    direct: lx of direct sun (groups, 2, sensors, hours), means: lx of all light, the mean of the sensors (groups, 2, hours). The
+    chosen state lets in most light of those in which at most ALLOWED of the sensors have SUNNY lx of direct sun; if there is none,
+    all blinds are lowered. Of more than MOST_COMBINED groups, that which brings most sensors this sun is lowered first.
+    """
+    groups, _, _, hours = direct.shape
+    sunny = lambda states: weights @ (sum(direct[g, s] for g, s in enumerate(states)) >= SUNNY) > ALLOWED  # noqa: E731
+    chosen = np.full((hours, groups), LOWERED)
+    if groups <= MOST_COMBINED:
+        best = np.full(hours, -np.inf)
+        for states in product((UP, LOWERED), repeat=groups):
+            light = sum(means[g, s] for g, s in enumerate(states))
+            better = ~sunny(states) & (light > best)
+            best[better], chosen[better] = light[better], states
+        return chosen
+    order = np.argsort(-np.array([weights @ (direct[g, UP] >= SUNNY) for g in range(groups)]), axis=0, kind="stable")
+    for h in range(hours):
+        states, now = np.full(groups, UP), slice(h, h + 1)
+        for g in order[:, h]:
+            if not (weights @ (sum(direct[k, s, :, now] for k, s in enumerate(states)) >= SUNNY) > ALLOWED).any():
+                break
+            states[g] = LOWERED
+        chosen[h] = states
+    return chosen

@@ -1,0 +1,333 @@
+"""rsphere.annual: verdicts by hand from their definitions, at and beside every limit, and light against closed forms."""
+import os
+import pty
+import re
+import signal
+import subprocess
+import tempfile
+import unittest
+import xml.dom.minidom
+
+import numpy as np
+
+from rsphere.annual.light import Light, Settings, SunGrid, check_sky
+from rsphere.annual.shades import ALLOWED, LOWERED, TRANSMITTANCE, UP, group_of, states_by_rule
+from rsphere.annual.sun import sun_position
+from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdicts_of
+from rsphere.annual.weather import Weather
+from rsphere.fault import Fault
+from rsphere.layout.room import read_polygons
+from run_here import built
+
+PLACE = [47.0, 15.0, 15.0]
+BLACK = "void plastic black 0 0 5 0 0 0 0 0\n"
+SETTINGS = Settings(bounces=2, divisions=256, sun_divisions=16, seasons=3, hours=2)
+
+
+def year_of(lux, direct=None, days=None, diffuse=None, **changes):
+    """A Year whose rows are all at noon; lux: (sensors, hours)."""
+    lux = np.atleast_2d(np.asarray(lux, float))
+    sensors, n = lux.shape
+    rows = np.array([(6, 1 + i % 28, 12.5) for i in range(n)]) if days is None else days
+    return Year(**{**dict(rows=rows, lux=lux[None], open=lux[None], direct=np.zeros_like(lux) if direct is None else np.atleast_2d(direct),
+                          diffuse=np.arange(n, 0, -1.0) if diffuse is None else diffuse, sun=np.zeros(n), weights=np.full(sensors, 1 / sensors),
+                          all_hours=n, occupied_hours=n), **changes})
+
+
+def found(year, rule, asked=""):
+    return next(v for v in verdicts_of(year) if v.rule.startswith(rule) and v.asked.startswith(asked))
+
+
+def weather(rows):
+    return Weather([list(row) for row in rows], 0, PLACE)
+
+
+def clear_days(days=((3, 21), (6, 21), (12, 21)), direct=600, diffuse=120):
+    """Hours of days; with light where the sun is more than 3 degrees high."""
+    for month, day in days:
+        for hour in np.arange(0.5, 24):
+            up = sun_position(month, day, hour, *PLACE)[0] > 0.05
+            yield month, day, hour, direct * up, diffuse * up
+
+
+class Rules(unittest.TestCase):
+    def test_autonomy_at_its_limits(self):
+        """Half of 10 hours at 300 lx are enough, 299.9 lx are not, nor are 4 hours."""
+        for enough, lux, value in ((5, 300, 1), (4, 300, 0), (5, 299.9, 0), (6, 1e4, 1)):
+            year = year_of([lux] * enough + [0] * (10 - enough))
+            self.assertEqual(found(year, "sDA 300").value, value, (enough, lux))
+
+    def test_share_of_sensors(self):
+        """11 of 20 sensors are 55%, which is asked for; 10 are not."""
+        for good, met in ((11, True), (10, False)):
+            verdict = found(year_of([[300]] * good + [[0]] * (20 - good)), "sDA 300", "55%")
+            self.assertAlmostEqual(verdict.value, good / 20)
+            self.assertEqual(verdict.met(), met)
+        weights = np.array([0.75, 0.25])
+        self.assertEqual(found(year_of([[300], [0]], weights=weights), "sDA 300", "75%").value, 0.75, "by their areas")
+
+    def test_hours_of_occupation(self):
+        """From 8 to 18 h: neither the hour before 8 nor that after 18; dark hours count."""
+        days = np.array([(6, 1, 7.5), (6, 1, 8.5), (6, 1, 17.5), (6, 1, 18.5)])
+        lux = [[900, 0, 900, 900], [900, 900, 0, 900], [900, 0, 0, 900]]
+        year = year_of(lux, days=days, occupied_hours=2)
+        self.assertAlmostEqual(found(year, "sDA 300").value, 2 / 3)
+        self.assertEqual(found(year_of(lux, days=days, occupied_hours=4), "sDA 300").value, 0)
+
+    def test_sun_at_its_limits(self):
+        """ASE counts sensors with 1000 lx in more than 250 hours; 10% may have them."""
+        for hours, lux, value in ((251, 1000, 1), (250, 1000, 0), (251, 999.9, 0)):
+            year = year_of(np.zeros((1, 400)), [lux] * hours + [0] * (400 - hours))
+            self.assertEqual(found(year, "ASE").value, value, (hours, lux))
+        sun = np.zeros((20, 400))
+        sun[:2] = 1000
+        self.assertTrue(found(year_of(np.zeros((20, 400)), sun), "ASE").met())
+        sun[2] = 1000
+        self.assertFalse(found(year_of(np.zeros((20, 400)), sun), "ASE").met())
+
+    def test_daylight_hours_of_en_17037(self):
+        """Half of all hours, those with most diffuse light; half of these with 300 lx suffice, for half of the area."""
+        lux = [300, 300, 0, 0, 900, 900, 900, 900]  # of 8 hours the first four are daylight hours
+        year = year_of(lux)
+        self.assertEqual(found(year, "target, minimum").value, 1)
+        self.assertEqual(found(year_of([0, 300, 0, 0] + lux[4:]), "target, minimum").value, 0)
+        self.assertEqual(found(year_of(lux, diffuse=np.arange(8.0)), "target, minimum").value, 1)
+        self.assertEqual(found(year_of(lux, all_hours=16), "target, minimum").value, 1, "the same 8 of 16 hours: 6 have 300 lx")
+        self.assertEqual(found(year_of([500, 500, 0, 0]), "target, medium").value, 1)
+        self.assertEqual(found(year_of([749, 749, 0, 0]), "target, high").value, 0)
+        for good, met in ((19, True), (18, False)):
+            verdict = found(year_of([[100, 100]] * good + [[99, 99]] * (20 - good)), "minimum target, minimum")
+            self.assertEqual(verdict.met(), met, "95% of the area")
+
+    def test_bands(self):
+        """UDI: 100, 300 and 3000 lx belong to the useful bands."""
+        lux = [0, 99.9, 100, 299.9, 300, 3000, 3000.1, 5000, 0, 0]
+        found_ = quantities_of(year_of(lux))
+        self.assertEqual([round(10 * float(found_[f"UDI {band}"][0][0])) for band in
+                          ("below 100 lx", "100 to 300 lx", "300 to 3000 lx", "above 3000 lx")], [4, 2, 2, 2])
+        dark = quantities_of(year_of(lux, occupied_hours=20))
+        self.assertAlmostEqual(float(dark["UDI below 100 lx"][0][0]), 14 / 20, msg="hours of night are dark")
+        self.assertAlmostEqual(float(found_["cDA 300 lx"][0][0]), (99.9 / 300 + 100 / 300 + 299.9 / 300 + 4) / 10)
+        self.assertAlmostEqual(float(found_["light of the year"][0][0]), sum(lux) / 1000)
+
+    def test_leed_by_clear_hours(self):
+        """At 9 and at 15 h, each the mean of the clearest days beside both equinoxes: 300 to 3000 lx."""
+        days = np.array([(month, day, hour) for month in (3, 9) for day in (21, 22) for hour in (8.5, 9.5, 14.5, 15.5)])
+        sun = np.array([8, 8, 1, 1, 1, 1, 8, 8] * 2, float)  # clear in the morning of the 21st and in the afternoon of the 22nd
+        for good, bad, value in ((300, 0, 1), (3000, 0, 1), (299, 1e4, 0), (3001, 500, 0)):
+            lux = np.where(sun > 1, good, bad)
+            self.assertEqual(found(year_of(lux, days=days, sun=sun), "option 2").value, value, good)
+        lux = np.where(sun > 1, 300, 0)
+        lux[0] = 0  # one of the four rows at 9 h has no light
+        self.assertEqual(found(year_of(lux, days=days, sun=sun), "option 2").value, 0)
+        self.assertFalse([v for v in verdicts_of(year_of(lux[:4], days=days[:4], sun=sun[:4])) if "option 2" in v.rule], "no September")
+
+    def test_hours_of_breeam(self):
+        for hours, met in ((2000, True), (1999, False)):
+            year = year_of(np.tile([[510.0], [90]], (1, hours)))
+            self.assertEqual(found(year, "hours with a mean of 300").met(), met)
+            self.assertEqual(found(year, "hours with 90 lx").met(), met)
+        self.assertFalse(found(year_of(np.tile([[510.0], [89.9]], (1, 2000))), "hours with a mean of 300").met())
+
+    def test_noise(self):
+        """A sensor within two standard errors of its limit is unsure, and may turn the verdict."""
+        rng = np.random.default_rng(1)
+        stack = np.stack([np.array([[0.5], [0.6], [0.4]]) + s * np.array([[0.02], [0.02], [0.0]]) for s in rng.normal(size=8)])
+        value, error = estimated(lambda lux: lux[:, 0], stack)
+        np.testing.assert_allclose(error, stack[:, :, 0].std(axis=0, ddof=1) / np.sqrt(8), atol=1e-12)
+        year = year_of(np.zeros((3, 1)))
+        verdict = share(year, lambda lux: lux[:, 0], stack, 0.5, rule="", asked="", least=0.5, source="")
+        self.assertEqual(verdict.unsure, 1)
+        self.assertAlmostEqual(verdict.low, 1 / 3)
+        self.assertAlmostEqual(verdict.high, 2 / 3)
+        self.assertTrue(verdict.hangs())
+        self.assertGreater(verdict.error, 0.05)
+        verdict.least = 0.7
+        self.assertFalse(verdict.hangs(), "no sensor more could reach it")
+
+
+class Blinds(unittest.TestCase):
+    """Two groups, 100 sensors."""
+
+    def states(self, sunny, means=((5, 1), (4, 1)), groups=2):
+        """sunny: for each group the sensors with 1000 lx of sun while its blinds are up."""
+        direct = np.zeros((groups, 2, 100, 1))
+        for g, lit in enumerate(sunny):
+            direct[g, UP, list(lit), 0] = 1000
+        return list(states_by_rule(direct, np.array(means, float).reshape(groups, 2, 1), np.full(100, 0.01))[0])
+
+    def test_two_percent(self):
+        self.assertEqual(ALLOWED, 0.02)
+        self.assertEqual(self.states([range(2), []]), [UP, UP])
+        self.assertEqual(self.states([range(3), []]), [LOWERED, UP])
+        self.assertEqual(self.states([[0, 1], [2]]), [UP, LOWERED], "together 3%; the first brings more light")
+        self.assertEqual(self.states([[0, 1], [2]], ((4, 1), (5, 1))), [LOWERED, UP])
+        self.assertEqual(self.states([range(3), range(3, 6)]), [LOWERED, LOWERED])
+
+    def test_sun_adds_up(self):
+        direct = np.zeros((2, 2, 100, 1))
+        direct[:, UP, :3] = 500
+        self.assertEqual(list(states_by_rule(direct, np.ones((2, 2, 1)) * [[[5], [1]], [[4], [1]]], np.full(100, 0.01))[0]), [UP, LOWERED])
+
+    def test_many_groups_in_descending_order(self):
+        sunny = [range(i) for i in range(8)]
+        self.assertEqual(self.states(sunny, [(5, 1)] * 8, 8), [UP, UP, UP, *[LOWERED] * 5], "those with most sun first, until 2% are left")
+
+
+class Closed(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def scene(self, text):
+        path = os.path.join(self.folder.name, "room.rad")
+        with open(path, "w", encoding="ascii") as stream:
+            stream.write(text)
+        return [path]
+
+    def light(self, text, sensors, hours, groups=(), estimates=2, settings=SETTINGS):
+        sensors = np.array(sensors, float)
+        light = Light(self.scene(text), sensors, np.full(len(sensors), 1 / len(sensors)), weather(hours), groups, self.folder.name, settings)
+        for _ in range(estimates):
+            light.add()
+        return light
+
+    BOX = BLACK + "".join(f"black polygon {name} 0 0 12 {corners}\n" for name, corners in (
+        ("floor", "0 0 0 4 0 0 4 4 0 0 4 0"), ("north", "0 4 0 4 4 0 4 4 3 0 4 3"), ("west", "0 0 0 0 4 0 0 4 3 0 0 3"),
+        ("east", "4 0 0 4 0 3 4 4 3 4 4 0"), ("top", "0 0 3 0 4 3 4 4 3 4 0 3"), ("sill", "0 0 0 0 0 1 4 0 1 4 0 0"),
+        ("lintel", "0 0 2 0 0 3 4 0 3 4 0 2"), ("left", "0 0 1 0 0 2 1 0 2 1 0 1"), ("right", "3 0 1 3 0 2 4 0 2 4 0 1")))
+
+    def test_open_field(self):
+        """A horizontal sensor has the global horizontal illuminance of the weather in each hour; one that faces away has none."""
+        light = self.light(BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n", [[5, 5, 1, 0, 0, 1]], list(clear_days()), estimates=4)
+        d = light.daylight
+        wanted = d.diffuse + d.sun * d.to_sun[:, 2]
+        lux = light.year.lux.mean(axis=0)[0]
+        self.assertGreater(len(lux), 30)
+        self.assertAlmostEqual(lux.sum() / wanted.sum(), 1, delta=0.005)
+        np.testing.assert_allclose(lux, wanted, rtol=0.03)
+        np.testing.assert_allclose(light.year.direct[0], d.sun * d.to_sun[:, 2], rtol=1e-5)
+
+    def test_sun_through_a_window_to_the_hour(self):
+        """In a black box direct sun is where the ray to the sun passes the window, 1 to 3 m east and 1 to 2 m high."""
+        sensors = [[x, y, 0.5, 0, 0, 1] for x in (0.5, 2, 3.5) for y in (0.3, 0.9, 2, 3.7)]
+        light = self.light(self.BOX, sensors, list(clear_days(days=[(m, 21) for m in range(1, 13)])), estimates=1)
+        x, y, z = light.daylight.to_sun.T
+        lit = 0
+        for sensor, direct in zip(sensors, light.year.direct):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                t = -sensor[1] / y
+                across, high = sensor[0] + t * x, sensor[2] + t * z
+            through = (y < 0) & (across > 1) & (across < 3) & (high > 1) & (high < 2)
+            np.testing.assert_array_equal(direct > 0, through)
+            np.testing.assert_allclose(direct[through], (light.daylight.sun * z)[through], rtol=1e-5)
+            lit += through.sum()
+        self.assertGreater(lit, 30)
+        np.testing.assert_allclose(light.year.open.sum(axis=2)[0] >= light.year.direct.sum(axis=1) * (1 - 1e-6), True)
+
+    def test_aperture_of_known_solid_angle(self):
+        """Below a square hole in a black plane the light of an even sky is its projected solid angle, and a blind lets 2% of it through."""
+        a, h = 1.0, 1.0  # half the side; the distance
+        side = a / np.sqrt(a * a + h * h)
+        projected = 4 * side * np.arctan(side)  # of the square: four rectangles from the corner below its middle, 2 each of both sides
+        hole = BLACK + "void glass pane 0 0 3 1 1 1\n" + "".join(f"black polygon b{i} 0 0 12 {c}\n" for i, c in enumerate((
+            "-50 -50 1 -50 50 1 -1 50 1 -1 -50 1", "1 -50 1 1 50 1 50 50 1 50 -50 1", "-1 1 1 -1 50 1 1 50 1 1 1 1", "-1 -50 1 -1 -1 1 1 -1 1 1 -50 1",
+            "-50 -50 -1 50 -50 -1 50 50 -1 -50 50 -1"))) + "pane polygon glazing 0 0 12 -1 -1 1 1 -1 1 1 1 1 -1 1 1\n"
+        hours = [(6, 21, 12.5, 0, 100)]
+        sensors = np.array([[0, 0, 0, 0, 0, 1.0]])
+        room = self.scene(hole)
+        group = group_of("pane", read_polygons(room), sensors[:, :3])
+        light = self.light(hole, sensors, hours, [group], estimates=8)
+        coefficients = light.passes[0][UP].estimate(0)[0][0, 1:]
+        self.assertLess(coefficients.sum(), projected)
+        np.testing.assert_allclose(coefficients.sum() / (projected * 0.92), 1, rtol=0.02, err_msg="a pane of index 1.52 reflects .08")
+        lowered = light.passes[0][LOWERED].estimate(0)[0][0, 1:]
+        np.testing.assert_allclose(lowered.sum() / (projected * TRANSMITTANCE * 0.86), 1, rtol=0.06, err_msg="of diffuse light a pane passes .86")
+        self.assertFalse(light.passes[0][LOWERED].direct.any())
+
+    def test_groups_add_up(self):
+        """Two windows, each with the other closed, are the room with both."""
+        windows = "void glass a 0 0 3 .96 .96 .96\nvoid glass b 0 0 3 .96 .96 .96\n" + \
+            "a polygon pane1 0 0 12 1 0 1 1 0 2 2 0 2 2 0 1\nb polygon pane2 0 0 12 2 0 1 2 0 2 3 0 2 3 0 1\n"
+        text = self.BOX.replace(" 0 0 0 0 0\n", " .5 .5 .5 0 0\n", 1) + windows
+        sensors = [[2, 1, 0.8, 0, 0, 1], [1, 2, 0.8, 0, 0, 1], [3, 3, 0.8, 0, 0, 1]]
+        hours = list(clear_days([(3, 21)]))
+        polygons = read_polygons(self.scene(text))
+        groups = [group_of(name, polygons, np.array(sensors)[:, :3]) for name in "ab"]
+        together = self.light(text, sensors, hours, estimates=8).year.open.mean(axis=0)
+        parts = self.light(text, sensors, hours, groups, estimates=8)
+        np.testing.assert_allclose(parts.year.open.mean(axis=0).sum(axis=1), together.sum(axis=1), rtol=0.03)
+        self.assertEqual(set(parts.states.ravel()), {UP, LOWERED})
+        lowered = (parts.states == LOWERED).any(axis=1)
+        np.testing.assert_array_equal(parts.year.lux[:, :, ~lowered], parts.year.open[:, :, ~lowered])
+        self.assertLess(parts.year.lux[:, :, lowered].sum(), 0.6 * parts.year.open[:, :, lowered].sum())
+
+    def test_a_scene_with_a_roof_over_everything(self):
+        text = BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\nblack sphere s 0 0 4 0 0 0 50\n"
+        with self.assertRaisesRegex(Fault, "the scene has a sky, or something above all"):
+            check_sky(self.scene(text), read_polygons(self.scene(text)), self.folder.name)
+
+    def command(self, *words, **more):
+        header = f"place X\nlatitude {PLACE[0]}\nlongitude {-PLACE[1]}\ntime_zone {-PLACE[2]}\nsite_elevation 0\nweather_data_file_units 1\n"
+        with open(os.path.join(self.folder.name, "w.wea"), "w", encoding="ascii") as stream:
+            stream.write(header + "".join(" ".join(f"{x:g}" for x in row) + "\n" for row in clear_days()))
+        scene = self.scene(self.BOX.replace(" 0 0 0 0 0\n", " .5 .5 .5 0 0\n", 1))
+        return subprocess.Popen([built("rsphere-annual"), "--weather", "w.wea", "-d", "16", *words, *scene], cwd=self.folder.name,
+                                stdout=subprocess.PIPE, text=True, **more)
+
+    def test_command(self):
+        with self.command("-e", "2", "--on", "floor", "--spacing", "1.4", stderr=subprocess.PIPE) as run:
+            out, err = run.communicate()
+        self.assertEqual(run.returncode, 0, err)
+        self.assertRegex(err, r"\A.*w\.wea: has 72 hours, fewer than a year's 8760\n\Z")
+        self.assertRegex(out, r"9 sensors; 72 hours of w\.wea, 30 from 8 to 18 h\.\n2 independent estimates")
+        self.assertRegex(out, r"IES LM-83-12;.*:\nsDA 300 lx / 50% of 8 to 18 h +55%: nominally accepted +[0-9.]+% +[0-9.]+ +(yes|no)")
+        folder = os.path.join(self.folder.name, "annual")
+        self.assertEqual(sorted(os.listdir(folder)), ["autonomy.svg", "page.html", "sensors.txt", "sun.svg", "table.txt", "useful.svg"])
+        with open(os.path.join(folder, "sensors.txt"), encoding="utf-8") as stream:
+            self.assertEqual(len(stream.read().splitlines()), 10)
+        with open(os.path.join(folder, "table.txt"), encoding="utf-8") as stream:
+            self.assertTrue(out.startswith(stream.read()))
+        xml.dom.minidom.parse(os.path.join(folder, "useful.svg"))
+
+    def test_control_c_leaves_what_is_done(self):
+        mine, its = pty.openpty()
+        with self.command("-e", "512", "--spacing", "1.4", stderr=its) as run:
+            os.close(its)
+            shown = ""
+            while not re.search("Light of sky and sun: ([6-9]|[1-9][0-9]+) of", shown) and run.poll() is None:
+                shown += os.read(mine, 65536).decode()
+            run.send_signal(signal.SIGINT)
+            out, _ = run.communicate(timeout=50)
+        os.close(mine)
+        self.assertEqual(run.returncode, 0, shown)
+        self.assertRegex(out, r"Interrupted after [0-9]+ estimates\.\n[0-9]+ independent estimates")
+        self.assertTrue(os.path.exists(os.path.join(self.folder.name, "annual/page.html")))
+
+    def test_shades_that_are_not_there(self):
+        for words, said in ((["--shades", "pain"], 'no polygon with the modifier "pain"; it has black'), (["--on", "flor"], 'no polygon or modifier "flor"'),
+                            (["--shades", "black=2"], "what is behind = must be from 0 to 0.5"), (["--sensors", "none"], "none: cannot be read")):
+            with self.command(*words, stderr=subprocess.PIPE) as run:
+                out, err = run.communicate()
+            self.assertEqual((run.returncode, out, err.count("\n")), (1, "", 1), err)
+            self.assertIn(said, err)
+
+
+class Grid(unittest.TestCase):
+    def test_positions_between(self):
+        """What is linear in declination and hour angle is interpolated exactly; directions of the grid are those of the sun."""
+        rows = [row for row in clear_days([(m, 11) for m in range(1, 13)]) if row[3]]
+        angles = [sun_position(*row[:3], *PLACE) for row in rows]
+        to_sun = np.array([(np.cos(a) * np.sin(z), np.cos(a) * np.cos(z), np.sin(a)) for a, z in angles])
+        grid = SunGrid(to_sun, PLACE[0], 5, 1)
+        np.testing.assert_allclose(grid.weights.sum(axis=1), 1)
+        np.testing.assert_allclose(np.linalg.norm(grid.directions, axis=1), 1)
+        near = (grid.directions[grid.index] * grid.weights[..., None]).sum(axis=1)
+        apart = np.degrees(np.arccos(np.clip((near * to_sun).sum(axis=1) / np.linalg.norm(near, axis=1), -1, 1)))
+        self.assertLess(np.median(apart), 0.3)
+        coefficients = np.arange(len(grid.directions), dtype=float)[None]
+        self.assertEqual(grid.between(coefficients).shape, (1, len(to_sun)))
+
+
+if __name__ == "__main__":
+    unittest.main()
