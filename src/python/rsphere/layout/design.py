@@ -193,7 +193,7 @@ class Reader:
     def read_luminaire(self, w):
         name = word(w.text("a name"))
         try:
-            photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies or .ldt")))
+            photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies, .ldt, .gldf or .xml")))
         except Fault as text:
             raise w.fault(str(text)) from None
         watts, factor = photometry.watts, 1.0
@@ -205,6 +205,8 @@ class Reader:
                 factor = w.number("the factor on the light", 1e-6, 1e6)
             else:
                 raise w.fault(f'"{key[:40]}" is neither watts nor factor')
+        if photometry.radiant:
+            raise w.fault(f"{photometry.file} is radiant (W/sr); goals are of light")
         if any(name == l.name for l in self.design.luminaires):
             raise w.fault(f'there are two luminaires "{name}"')
         if not watts > 0:

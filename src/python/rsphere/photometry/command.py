@@ -1,8 +1,9 @@
-"""A luminaire as a RADIANCE scene, or its UGR table, from an IES LM-63 or EULUMDAT file."""
+"""A luminaire as a RADIANCE scene, or its UGR table, from an IES LM-63, EULUMDAT, GLDF or TM-33 file."""
 import os
 
 from ..command import Options
 from ..fault import fault
+from . import radiant
 from .lamp_rad import UNITS, pattern_text, surfaces_text, word, write_data
 from .luminaire_file import read_luminaire
 from .ugr_table import SPACINGS, UgrTable
@@ -17,18 +18,21 @@ With --ugr, prints the UGR table of CIE 117 and CIE 190 instead: 19 rooms by 5 r
 
 
 def main():
-    parser = Options("FILE.ies | FILE.ldt", TEXT)
+    parser = Options("FILE.ies | FILE.ldt | FILE.gldf | FILE.xml", TEXT)
     parser.add_argument("file")
     parser.add_argument("-u", "--units", choices=UNITS, default="m", metavar="UNIT", help=f"of the scene: {', '.join(UNITS)}")
     parser.add_argument("-f", "--factor", type=float, default=1.0, metavar="X", help="on the light, such as a maintenance factor")
     parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="for the data file")
+    parser.add_argument("--intensity", choices=radiant.UNITS, metavar="UNIT", help=f"of an IES file that does not say it: {', '.join(radiant.UNITS)}")
+    parser.add_argument("--variant", metavar="ID", help="of a GLDF file: the first")
+    parser.add_argument("--emitter", metavar="ID", help="of a variant that has several")
     parser.add_argument("--ugr", action="store_true", help="print the UGR table instead of a scene")
     parser.add_argument("--spacing", type=float, choices=SPACINGS, default=SPACINGS[0], metavar="S",
                         help="of luminaires in the rooms of the table, in heights above the eye: .25 or 1")
     parser.add_argument("--csv", dest="form", action="store_const", const=csv, default=text, help="the table as comma-separated values")
     parser.add_argument("--svg", dest="form", action="store_const", const=svg, help="the table as a drawing")
     given = parser.parse_args()
-    photometry = read_luminaire(given.file)
+    photometry = read_luminaire(given.file, given.intensity, given.variant, given.emitter)
     if given.ugr:
         print(given.form(UgrTable(photometry, given.spacing, given.factor * photometry.tilt_factor(0))), end="")
         return
@@ -38,6 +42,9 @@ def main():
         data = write_data(photometry, given.output, name)
     except OSError as error:
         raise fault(error.filename or given.output, None, f"cannot be written: {error.strerror}") from None
-    print(f"# {word(photometry.name)} from {word(os.path.basename(given.file))}: {photometry.lumens():.0f} lm, {photometry.watts:g} W")
+    flux = f"{photometry.lumens():.4g} W radiant (rsphere -pA has W/m2)" if photometry.radiant else f"{photometry.lumens():.0f} lm"
+    print(f"# {word(photometry.name)} from {word(os.path.basename(given.file))}: {flux}, {photometry.watts:g} W")
+    for note in photometry.notes:
+        print(f"# {note}")
     factor = given.factor * photometry.tilt_factor(0)
     print(pattern_text(photometry, name, data, factor) + surfaces_text(photometry, name, name, units=UNITS[given.units]), end="")

@@ -5,6 +5,7 @@ import numpy as np
 
 from ..fault import Fault, fault, lines_of, number, whole
 from .intensities import Photometry, checked_angles, checked_candela, unfolded
+from .radiant import UNITS, unit_in
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
 FOOT = 0.3048
@@ -124,10 +125,13 @@ def all_round(words, planes, candela):
     )
 
 
-def read_ies(file):
-    """The Photometry of an IES file. Raises Fault with its line."""
+def read_ies(file, intensity=None):
+    """The Photometry of an IES file. intensity: the unit of its values, whatever it says. Raises Fault with its line."""
     lines = lines_of(file)
     keywords, index, tilt_value = head(file, lines)
+    unit = UNITS[intensity] if intensity else unit_in("\n".join(lines[:index]))
+    if unit is None:
+        raise fault(file, None, "says that it is radiant, but not in which unit; say so by --intensity, as W/sr, mW/sr, uW/sr or cd")
     words = Words(file, lines, index + 1)
     tilt = tilt_of(file, tilt_value, words)
     lamps = words.whole("the number of lamps", 1, 10000)
@@ -155,8 +159,8 @@ def read_ies(file):
     words.end()
     if not candela.any():
         raise fault(file, words.line, "all candela values are 0")
-    candela = checked_candela(candela * multiplier * factor, file, words.line)
+    candela = checked_candela(candela * multiplier * factor * unit[1], file, words.line)
     name = " ".join(keywords.get(key, "") for key in ("MANUFAC", "LUMCAT", "LUMINAIRE")).strip()
     # Type C: the plane 0 is along the luminaire. Where the opening is wider, its longer side decides.
     axis = "y" if size[1] > size[0] else "x"
-    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt, axis)
+    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt, axis, unit[0])

@@ -28,6 +28,8 @@ class Photometry:
     watts: float
     tilt: tuple = field(default=((0.0, 180.0), (1.0, 1.0)))  # angles of the luminaire, and factors on its light
     axis: str = "x"  # that a long luminaire lies along; one that is seen crosswise has it across the line of sight
+    radiant: bool = False  # intensities are in W/sr and not in cd, as those of UV
+    notes: tuple = ()  # what is to be said of the file
     sides: tuple = None  # the heights of the luminous sides that face C0, C90, C180 and C270, where these differ
 
     def intensity(self, directions):
@@ -52,7 +54,7 @@ class Photometry:
         return np.where(outside, 0.0, value)
 
     def lumens(self):
-        """The luminous flux: the integral of the intensities."""
+        """The luminous flux (lm), or the radiant flux (W): the integral of the intensities."""
         fine = np.radians(np.linspace(0, 180, 3601))
         mean = self.candela[0]
         if len(self.planes) > 1:

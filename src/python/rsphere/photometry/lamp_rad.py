@@ -33,7 +33,7 @@ def data_text(photometry):
     lines = ["2"]
     for angles in (planes, gammas):
         lines.append(f"0 0 {len(angles)} " + " ".join(f"{a:.9g}" for a in angles))
-    lines += [" ".join(f"{v / LUMENS_PER_WATT:.9g}" for v in row) for row in values]
+    lines += [" ".join(f"{v / (1 if photometry.radiant else LUMENS_PER_WATT):.9g}" for v in row) for row in values]
     return "\n".join(lines) + "\n"
 
 

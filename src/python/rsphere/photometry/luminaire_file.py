@@ -1,13 +1,39 @@
-"""Reads photometric files of either format."""
+"""Reads photometric files of all formats."""
 from ..fault import fault, lines_of
 from .eulumdat import read_eulumdat
+from .gldf import read_gldf
 from .ies import read_ies
+from .tm33 import read_tm33
+
+ZIP = b"PK\3\4"
 
 
-def read_luminaire(file):
-    """The Photometry of a file: EULUMDAT if its name ends with .ldt, or IES if it has a line TILT=."""
-    if file.lower().endswith((".ldt", ".eul")):
+def begins(file, count):
+    """The first bytes of a file, or none if it cannot be read: the readers say why."""
+    try:
+        with open(file, "rb") as stream:
+            return stream.read(count)
+    except OSError:
+        return b""
+
+
+def read_luminaire(file, intensity=None, variant=None, emitter=None):
+    """The Photometry of a file: GLDF if it is a zip, TM-33 if it is XML, EULUMDAT if its name ends with .ldt, or IES if it has a line TILT=.
+
+    intensity: the unit of an IES file that does not say it (cd, W/sr, mW/sr, uW/sr). variant, emitter: ids in a GLDF file.
+    """
+    ending = file.lower().rsplit(".", 1)[-1]
+    first = begins(file, 64).removeprefix(b"\xef\xbb\xbf").lstrip()
+    gldf = ending == "gldf" or first.startswith(ZIP)
+    for given, name in ((variant, "variant"), (emitter, "emitter")):
+        if given is not None and not gldf:
+            raise fault(file, None, f"is not a GLDF file, which alone has a {name}")
+    if gldf:
+        return read_gldf(file, variant, emitter)
+    if ending == "xml" or first.startswith(b"<"):
+        return read_tm33(file)
+    if ending in ("ldt", "eul"):
         return read_eulumdat(file)
-    if file.lower().endswith(".ies") or any(line.strip().upper().startswith("TILT=") for line in lines_of(file)):
-        return read_ies(file)
-    raise fault(file, None, "is neither an IES file, which has a line TILT=, nor an EULUMDAT file, whose name ends with .ldt")
+    if ending == "ies" or any(line.strip().upper().startswith("TILT=") for line in lines_of(file)):
+        return read_ies(file, intensity)
+    raise fault(file, None, "is neither an IES file, which has a line TILT=, nor EULUMDAT (.ldt), GLDF (.gldf) or TM-33 (.xml)")

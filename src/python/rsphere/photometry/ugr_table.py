@@ -34,6 +34,8 @@ class UgrTable:
         """spacing: of luminaires, in H. factor: on the light."""
         if photometry.shape == "point" or min(photometry.size[:2]) <= 0:
             raise fault(photometry.file, None, "has no luminous area, which UGR needs; write its width and length into the file")
+        if photometry.radiant:
+            raise fault(photometry.file, None, "is radiant (W/sr): its light has no UGR")
         self.photometry, self.spacing, self.factor = photometry, spacing, factor
         self.direct = Direct(photometry)
         self.values = np.array([[v for endwise in (False, True) for v in self.ratings(room, endwise)] for room in ROOMS])

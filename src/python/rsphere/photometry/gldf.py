@@ -1,0 +1,131 @@
+"""Reads GLDF files (gldf.io): a zip with product.xml, which says which photometric file belongs to which variant of a luminaire."""
+import os
+import tempfile
+import zipfile
+import zlib
+from dataclasses import replace
+
+from ..fault import Fault, fault
+from .eulumdat import read_eulumdat
+from .ies import read_ies
+from .tm33 import read_tm33
+from .xml_file import MOST_BYTES, number_of, root_of, text_of
+
+MOST_MEMBERS = 10000
+READERS = {"ldc/eulumdat": read_eulumdat, "ldc/ies": read_ies, "ldc/iesxml": read_tm33}  # never another archive: it may hold itself
+DIFFERENT = 0.01  # of the flux: photometric file and product differ by more
+
+
+class Archive:
+    """The members of a zip, none of which is ever written to a place that the archive names."""
+
+    def __init__(self, file):
+        self.file = file
+        try:
+            self.zip = zipfile.ZipFile(file)
+        except OSError as error:
+            raise fault(file, None, f"cannot be read: {error.strerror}") from None
+        except (zipfile.BadZipFile, ValueError, NotImplementedError) as error:
+            raise fault(file, None, f"is not a GLDF file: {error}") from None
+        if len(self.zip.infolist()) > MOST_MEMBERS:
+            raise fault(file, None, f"has more than {MOST_MEMBERS} files")
+        self.names = {name.lower(): name for name in self.zip.namelist()}
+
+    def read(self, name):
+        """The bytes of a member. What it says of its size is not believed."""
+        try:
+            with self.zip.open(self.names[name.lower()]) as stream:
+                data = stream.read(MOST_BYTES + 1)
+        except KeyError:
+            raise fault(self.file, None, f'has no file "{name[:80]}"') from None
+        except (zipfile.BadZipFile, zlib.error, EOFError, OSError, RuntimeError, NotImplementedError, ValueError) as error:
+            raise fault(self.file, None, f'"{name[:80]}" cannot be unpacked: {error}') from None
+        if len(data) > MOST_BYTES:
+            raise fault(self.file, None, f'"{name[:80]}" is larger than {MOST_BYTES >> 20} MB')
+        return data
+
+
+class Product:
+    """product.xml: its elements by their id."""
+
+    def __init__(self, root, file):
+        self.root, self.file = root, file
+
+    def all(self, tag):
+        return self.root.iter(tag)
+
+    def named(self, tag, name, where):
+        for element in self.all(tag):
+            if element.get("id") == name:
+                return element
+        known = ", ".join(sorted(str(e.get("id")) for e in self.all(tag))[:12]) or "none"
+        raise fault(self.file, None, f'product.xml has no {tag} "{str(name)[:40]}"{where}; it has {known}')
+
+    def variant(self, name):
+        variants = list(self.all("Variant"))
+        if name is None and not variants:
+            raise fault(self.file, None, "product.xml has no Variant: is it of a luminaire?")
+        return variants[0] if name is None else self.named("Variant", name, "")
+
+    def emitter(self, variant, name):
+        """The emitter of a variant: its only one, or that of this id."""
+        ids = list(dict.fromkeys(e.get("emitterId") for e in variant.iter() if e.get("emitterId")))
+        if name is None and len(ids) != 1:
+            raise fault(self.file, None, f'the variant "{variant.get("id")}" has {len(ids)} emitters' +
+                        (f"; choose one by --emitter: {', '.join(map(str, ids[:12]))}" if ids else ""))
+        if name is not None and name not in ids:
+            raise fault(self.file, None, f'the variant "{variant.get("id")}" has no emitter "{name[:40]}"; it has {", ".join(map(str, ids[:12]))}')
+        return self.named("Emitter", ids[0] if name is None else name, "")
+
+    def photometric_file(self, light):
+        """The name of the photometric file of a light emitter in the archive, and what reads it."""
+        reference = light.find("PhotometryReference")
+        photometry = self.named("Photometry", None if reference is None else reference.get("photometryId"), " as the emitter wants it")
+        reference = photometry.find("PhotometryFileReference")
+        entry = self.named("File", None if reference is None else reference.get("fileId"), " as the photometry wants it")
+        kind, name = entry.get("contentType"), (entry.text or "").strip()
+        if kind not in READERS:
+            raise fault(self.file, None, f'the photometric file "{name[:80]}" is of the type {str(kind)[:40]}, not one of {", ".join(READERS)}')
+        if entry.get("type") != "localFileName":
+            raise fault(self.file, None, f'the photometric file "{name[:80]}" is not in the archive; nothing is loaded from elsewhere')
+        if not name or "/" in name or "\\" in name or name in (".", ".."):
+            raise fault(self.file, None, f'the name of the photometric file "{name[:80]}" leaves its folder')
+        return f"ldc/{name}", READERS[kind]
+
+
+def read_gldf(file, variant=None, emitter=None):
+    """The Photometry of a variant (the first) of a GLDF file, with the rated flux of its emitter. Raises Fault."""
+    archive = Archive(file)
+    product = Product(root_of(archive.read("product.xml"), f"{file}: product.xml"), file)
+    chosen = product.variant(variant)
+    found = product.emitter(chosen, emitter)
+    light = next((e for e in found if e.tag in ("FixedLightEmitter", "ChangeableLightEmitter")), None)
+    if light is None:
+        raise fault(file, None, f'the emitter "{found.get("id")}" is neither a FixedLightEmitter nor a ChangeableLightEmitter')
+    name, reader = product.photometric_file(light)
+    with tempfile.TemporaryDirectory() as folder:
+        copy = os.path.join(folder, "photometry")
+        with open(copy, "wb") as stream:
+            stream.write(archive.read(name))
+        try:
+            read = reader(copy)
+        except Fault as text:
+            raise fault(file, None, str(text).replace(copy, name)) from None
+    watts = watts_of(product, light, file) or read.watts
+    title = text_of(chosen, "Name/Locale") or text_of(product.root, "ProductDefinitions/ProductMetaData/Name/Locale")
+    maker = text_of(product.root, "Header/Manufacturer")
+    flux = number_of(light, "RatedLuminousFlux", file, 0, 1e9, 0.0)
+    measured, notes = read.lumens(), read.notes
+    factor = flux / measured if flux > 0 and measured > 0 and not read.radiant else 1.0
+    if abs(factor - 1) > DIFFERENT:
+        notes += (f"the flux of the photometric file is {measured:.0f} lm; that of the emitter holds",)
+    return replace(read, file=file, name=f"{maker} {title}".strip() or read.name, candela=read.candela * factor, watts=watts, notes=notes)
+
+
+def watts_of(product, light, file):
+    """The rated power of the light source of an emitter; 0 if it is not stated."""
+    for reference, tag in (("fixedLightSourceId", "FixedLightSource"), ("changeableLightSourceId", "ChangeableLightSource")):
+        for element in light.iter():
+            if element.get(reference):
+                return number_of(product.named(tag, element.get(reference), ""), "RatedInputPower", file, 0, 1e6, 0.0)
+    return 0.0
