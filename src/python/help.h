@@ -11,6 +11,8 @@ RAYPATH.
 goals: modifiers of goals; their surfaces emit importance 1, all others nothing.
 Raises rsphere.Error.)";
 
+constexpr const char* kInit = "Scene(files: str | list[str], commands: bool = True, goals: list[str] = [])";
+
 constexpr const char* kOptions = R"(
 Options by name: ambient_bounces, ambient_accuracy, ambient_divisions, ambient_super_samples,
 ambient_resolution, ambient_value, limit_reflections, limit_weight, rotation, irradiance_at_origin,
@@ -23,7 +25,9 @@ have values, such as -pY, go into arguments=["-pY"].
 Calls that repeat the same options are fast; only threads, outputs and colors may differ.
 Raises rsphere.Error.)";
 
-constexpr const char* kTrace = R"(Traces rays: an array of shape (n, 6), origins and directions.
+constexpr const char* kTrace = R"(trace(rays: array (n, 6), **options) -> rsphere.Answers
+
+Traces rays: origins and directions.
 
 Returns an object with an array for each letter of outputs ("v" if not given), and None for others:
 v value (n, 3): radiance (W/sr/m2), or irradiance (W/m2) with irradiance_at_origin (-I) or
@@ -34,7 +38,9 @@ r mirrored_value, R mirrored_length, x unmirrored_value, X unmirrored_length, s 
 M material.
 )";
 
-constexpr const char* kSphere = R"(Computes what passes through points from all directions: an array (n, 3).
+constexpr const char* kSphere = R"(sphere(points: array (n, 3), **options) -> rsphere.Answers
+
+Computes what passes through points from all directions: an array (n, 3).
 
 Returns an object with an array for each letter of outputs ("veECHuk" if not given), and None for others. F is
 the integral of radiance over 4 pi sr.
@@ -51,7 +57,10 @@ count, parameters and files: {"files": "reinhart.cal", "parameters": "MF=1", "ex
 "Nrbins"}. Directions of other numbers are in no bin. Borders are followed to .1 degrees.
 )";
 
-constexpr const char* kImportance = R"(Computes the importance of each goal at points, of all in one pass.
+constexpr const char* kImportance =
+    R"(importance(points: array (n, 3), goals: list[str] | array (goals, 6), **options) -> rsphere.Answers
+
+Computes the importance of each goal at points, of all in one pass.
 
 points: an array (n, 3). goals: modifiers whose surfaces emit importance 1 W/sr/m2 from their front; all
 other sources are dark. Returns the object of sphere() whose contributors are the goals, and whose arrays have
@@ -68,7 +77,10 @@ By reciprocity, a lamp at the point of 1 cd in all directions gives a goal of ar
 4 pi mean / A (lx), and a small downlight of cos(angle to -z) cd gives it face_irradiance[:, :, 5] / A.
 )";
 
-constexpr const char* kGlare = R"(Computes glare at eyes.
+constexpr const char* kGlare =
+    R"(glare(eyes: array (n, 3), gazes: array (n, 3) or (3,), **options) -> rsphere.Answers
+
+Computes glare at eyes.
 
 eyes: an array (n, 3). gazes: the directions in which they look, (n, 3), or one (3,) for all; not vertical, z
 is up. Returns an object with an array (n,) for each letter of outputs (all if not given), None for others:
@@ -81,7 +93,10 @@ position_index, surface (a list of names). Sub=..., Sut=(below, opening): thresh
 )";
 
 constexpr const char* kContributions =
-    R"(Computes what modifiers contribute to rays: an array of shape (n, 6), origins and directions.
+    R"(contributions(rays: array (n, 6), of: list[str], *, bins: None | int | dict = None, samples: int = 8,
+              coefficients: bool = False, **options) -> rsphere.Answers
+
+Computes what modifiers contribute to rays: an array of shape (n, 6), origins and directions.
 
 of: modifiers: light sources, the sky, goals or any other surfaces.
 bins: None, or a number of zones of equal solid angle in which the directions lie of rays that meet a modifier

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <charconv>
 #include <exception>
 #include <memory>
 #include <string>
@@ -20,11 +21,30 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+// The text of an error or a warning, adapted to Python: it refers to Python's help instead of the command's,
+// and to options instead of a command line; it counts records from 0, as arrays do.
+std::string forPython(std::string text) {
+  constexpr std::string_view kCommand = "command line error at ";
+  if (text.starts_with(kCommand)) text.replace(0, kCommand.size(), "option ");
+  constexpr std::string_view kHelp = "see -help";
+  if (std::string_view(text).ends_with(kHelp))
+    text.replace(text.size() - kHelp.size(), kHelp.size(), "see help(rsphere.Scene)");
+  constexpr std::string_view kRecord = "record ";
+  for (size_t at = text.find(kRecord); at != std::string::npos; at = text.find(kRecord, at + 1)) {
+    size_t number = 0;
+    const char* const digits = text.data() + at + kRecord.size();
+    const auto [end, error] = std::from_chars(digits, text.data() + text.size(), number);
+    if (error == std::errc() && number > 0)
+      text.replace(at, size_t(end - text.data()) - at, "index " + std::to_string(number - 1));
+  }
+  return text;
+}
+
 // Calls `work` without the interpreter lock. Warnings become Python warnings. Ctrl-C ends the work.
 template <typename SomeOptions, typename Work>
 auto withoutLock(SomeOptions& options, const Work& work) {
   std::vector<std::string> warnings;
-  options.warn = [&](std::string_view text) { warnings.emplace_back(text); };
+  options.warn = [&](std::string_view text) { warnings.push_back(forPython(std::string(text))); };
   const auto issue = [&] {
     for (const std::string& text : warnings)
       if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
@@ -116,7 +136,7 @@ std::span<const Record> recordsOf(const Numbers& array, const char* name) {
 }
 
 py::object answersObject(const py::dict& arrays) {
-  return py::module_::import("types").attr("SimpleNamespace")(**arrays);
+  return py::module_::import("rsphere.answers").attr("Answers")(**arrays);
 }
 
 py::object trace(const py::object& self, const py::object& given, const py::kwargs& keywords) {
@@ -343,8 +363,6 @@ void refuseSecondInit(py::class_<Scene>& scene) {
       throw py::type_error("this Scene has its files already: other files make another Scene(files)");
     init(self, *arguments, **keywords);
   };
-  py::options options;
-  options.disable_function_signatures();  // the text has the signature of `init`
   const auto text = init.attr("__doc__").cast<std::string>();
   scene.attr("__init__") = py::cpp_function(once, py::name("init"), py::is_method(scene), text.c_str());
 }
@@ -352,17 +370,6 @@ void refuseSecondInit(py::class_<Scene>& scene) {
 py::object photometricOf(const py::object& color) {
   const py::module_ numpy = py::module_::import("numpy");
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
-}
-
-// The text of an error, adapted to Python: it refers to Python's help instead of the command's, and to
-// options instead of a command line.
-std::string forPython(std::string text) {
-  constexpr std::string_view kCommand = "command line error at ";
-  if (text.starts_with(kCommand)) text.replace(0, kCommand.size(), "option ");
-  constexpr std::string_view kHelp = "see -help";
-  if (std::string_view(text).ends_with(kHelp))
-    text.replace(text.size() - kHelp.size(), kHelp.size(), "see help(rsphere.Scene)");
-  return text;
 }
 
 // Creates the exception rsphere.Error, with the members of the library's Error.
@@ -393,6 +400,8 @@ void addError(py::module_& m) {
 
 PYBIND11_MODULE(_rsphere, m) {
   m.attr("__name__") = "rsphere";  // where users find what is defined below
+  py::options texts;
+  texts.disable_function_signatures();  // the texts have them, with the types that are meant
   m.attr("__version__") = version();
   addError(m);
   const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
@@ -402,7 +411,7 @@ PYBIND11_MODULE(_rsphere, m) {
   py::class_<Scene> scene(m, "Scene", kScene);
   scene
       .def(py::init(&readScene), py::arg("files") = py::none(), py::arg("commands") = true,
-           py::arg("goals") = std::vector<std::string>())
+           py::arg("goals") = std::vector<std::string>(), kInit)
       .def("trace", &trace, py::arg("rays") = py::none(), traceText.c_str())
       .def("sphere", &sphere, py::arg("points") = py::none(), sphereText.c_str())
       .def("importance", &importance, py::arg("points") = py::none(), py::arg("goals") = py::none(),
@@ -413,8 +422,10 @@ PYBIND11_MODULE(_rsphere, m) {
            py::arg("coefficients") = false, contributionsText.c_str());
   refuseSecondInit(scene);
   m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
+        "zone_middles(count: int) -> array (count, 3)\n\n"
         "The directions (count, 3) in the middle of zones of equal solid angle, 4 pi / count sr each.");
   m.def("photometric", &photometricOf, py::arg("color"),
+        "photometric(color: array (..., 3)) -> array (...)\n\n"
         "Turns colors (..., 3) of radiance (W/sr/m2) into luminance (cd/m2), and of irradiance (W/m2) into "
         "illuminance (lx).");
   m.attr("LUMENS_PER_WATT") = kLumensPerWatt;

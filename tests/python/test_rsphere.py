@@ -406,8 +406,16 @@ class Threads(unittest.TestCase):
             lambda: scene.glare(far, [1, 0, 0]),
             lambda: scene.contributions(np.hstack([far, far]), of=["wall"], irradiance_at_origin=True),
         ):
-            with self.assertWarnsRegex(UserWarning, "1 of 2 .*; the first is record 2: check the units of the"):
+            with self.assertWarnsRegex(UserWarning, "1 of 2 .*; the first is index 1: check the units of the"):
                 ask()
+
+    def test_texts(self):
+        """repr() printed pages of numbers, and help() had "points: object = None"."""
+        answers = rsphere.Scene(FURNACE).sphere([[0, 0, 0]], directions=64)
+        self.assertRegex(repr(answers), r"^rsphere\.Answers: mean \(1, 3\), mean_standard_error \(1, 3\), .*, directions \(1,\)$")
+        for name in ("trace", "sphere", "importance", "glare", "contributions"):
+            self.assertRegex(getattr(rsphere.Scene, name).__doc__, rf"^{name}\([a-z]+: array \(n, [36]\), [^\n]*\n")
+            self.assertNotIn("object", getattr(rsphere.Scene, name).__doc__.split("\n")[0])
 
     def test_a_scene_keeps_its_files(self):
         scene = rsphere.Scene(FURNACE)
@@ -416,7 +424,7 @@ class Threads(unittest.TestCase):
                 scene.__init__(files)
         with self.assertRaisesRegex(TypeError, "needs files"):
             rsphere.Scene()
-        self.assertIn("files: object = None", rsphere.Scene.__init__.__doc__)
+        self.assertIn("files: str | list[str]", rsphere.Scene.__init__.__doc__)
 
     def test_options_of_the_other_mode(self):
         scene = rsphere.Scene(FURNACE)

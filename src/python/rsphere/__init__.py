@@ -10,5 +10,6 @@ not depend on the number of threads. Warnings about the scene are UserWarning.
 rsphere.annual: daylight of a year; rsphere.layout: where luminaires should hang; rsphere.photometry: files of luminaires.
 """
 from ._rsphere import LUMENS_PER_WATT, Error, Scene, __version__, photometric, zone_middles
+from .answers import Answers
 
-__all__ = ["LUMENS_PER_WATT", "Error", "Scene", "__version__", "photometric", "zone_middles"]
+__all__ = ["Answers", "LUMENS_PER_WATT", "Error", "Scene", "__version__", "photometric", "zone_middles"]
