@@ -29,11 +29,15 @@ struct Root {
 
 }  // namespace
 
-int raysOfRecord(const RayOptions& o, bool byLamps) {
+int raysOfRecord(const RayOptions& o, LitBy by) {
   const int all = o.ambientDivisions + o.ambientSuperSamples;
-  if (!byLamps) return all;
-  const double enough = tuning::Interpolation::kRaysByLamps / (o.ambientAccuracy * o.ambientAccuracy);
-  return static_cast<int>(std::clamp<double>(enough, (all + 1) / 2, all));
+  if (by == LitBy::other) return all;
+  using Interpolation = tuning::Interpolation;
+  const bool lamps = by == LitBy::lamps;
+  const double rays = lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings;
+  const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
+  const double enough = rays / (o.ambientAccuracy * o.ambientAccuracy);
+  return static_cast<int>(std::clamp<double>(enough, (all + part - 1) / part, all));
 }
 
 GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
@@ -41,7 +45,10 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   const Root root(t_, site, depth_);
   V3d x, y;
   frame(site.normal, x, y);
-  const int count = raysOfRecord(t_.options(), path.settings.caches.byLamps);
+  const LitBy by = path.settings.caches.byLamps        ? LitBy::lamps
+                   : path.settings.aims.of<Openings>() ? LitBy::openings
+                                                       : LitBy::other;
+  const int count = raysOfRecord(t_.options(), by);
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);

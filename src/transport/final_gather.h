@@ -6,8 +6,11 @@
 
 namespace rsphere {
 
-// The number of rays of a record of the irradiance cache. byLamps: isLitByLamps()
-int raysOfRecord(const RayOptions& options, bool byLamps);
+// What lights a place: lamps alone (isLitByLamps()), daylight through openings at which rays are aimed, or
+// anything else.
+enum class LitBy : uint8_t { lamps, openings, other };
+// The number of rays of a record of the irradiance cache.
+int raysOfRecord(const RayOptions& options, LitBy by);
 
 // Implements FieldRays by a path.
 class TracedFieldRays final : public FieldRays {

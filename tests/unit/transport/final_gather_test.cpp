@@ -18,14 +18,19 @@ RayOptions optionsOf(double accuracy, int divisions, int superSamples) {
   return o;
 }
 
-TEST(RaysOfRecord, AreFewerByLampsWhereInterpolationMayErrMore) {
-  const double enough = tuning::Interpolation::kRaysByLamps / (.1 * .1);
-  const int all = static_cast<int>(1.5 * enough);
-  EXPECT_EQ(raysOfRecord(optionsOf(.1, all - 100, 100), false), all);
-  EXPECT_NEAR(raysOfRecord(optionsOf(.1, all - 100, 100), true), enough, 1);
-  EXPECT_EQ(raysOfRecord(optionsOf(.05, all - 100, 100), true), all);
-  EXPECT_EQ(raysOfRecord(optionsOf(1, all - 100, 100), true), (all + 1) / 2);
-  EXPECT_EQ(raysOfRecord(optionsOf(1, 1, 0), true), 1);
+TEST(RaysOfRecord, AreFewerWhereInterpolationMayErrMore) {
+  for (const LitBy by : {LitBy::lamps, LitBy::openings}) {
+    const bool lamps = by == LitBy::lamps;
+    using tuning::Interpolation;
+    const double enough = (lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings) / (.1 * .1);
+    const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
+    const int all = static_cast<int>(1.5 * enough);
+    EXPECT_EQ(raysOfRecord(optionsOf(.1, all - 100, 100), LitBy::other), all);
+    EXPECT_NEAR(raysOfRecord(optionsOf(.1, all - 100, 100), by), enough, 1);
+    EXPECT_EQ(raysOfRecord(optionsOf(.05, all - 100, 100), by), all);
+    EXPECT_EQ(raysOfRecord(optionsOf(9, all - 100, 100), by), (all + part - 1) / part);
+    EXPECT_EQ(raysOfRecord(optionsOf(1, 1, 0), by), 1);
+  }
 }
 
 TEST(IsLitByLamps, UnlessOnlyRaysFindSomeLight) {
