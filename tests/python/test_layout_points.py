@@ -98,6 +98,17 @@ class Layouts(unittest.TestCase):
         planned, found = self.values(run)["illuminance"]
         self.assertAlmostEqual(planned / found, 1, delta=0.012)
 
+    def test_goals_keep_their_patterns(self):
+        """A goal with a pattern reflected as if it had none, light to other goals as well."""
+        picture = "void colorfunc dark\n4 .2 .2 .2 .\n0\n0\ndark plastic canvas 0 0 5 1 1 1 0 0\n"
+        picture += "canvas polygon picture 0 0 12 .05 .5 .5 .05 4.5 .5 .05 4.5 2.8 .05 .5 2.8\n"
+        lines = ["place panel 1.2 2.5 1.7 aim -1 0 0", "illuminance picture 10", "illuminance floor 5"]
+        run, _, _ = self.run_on(lines, picture, "-c", "64", "-d", "512", "-b", "1")
+        rows = [line.replace(" lx", "").split() for line in run.stdout.splitlines() if line.startswith("illuminance")]
+        self.assertEqual([row[1] for row in rows], ["picture", "floor"], run.stdout)
+        for row in rows:
+            self.assertAlmostEqual(float(row[3]) / float(row[4]), 1, delta=0.05, msg=run.stdout)
+
     def test_floor_under_furniture(self):
         """A chest covers a fifth of the floor, and not whole cells: its points took part in means and uniformity."""
         chest = box("white", "chest", (5.9, .001, 0), (7.999, 4.999, .5))

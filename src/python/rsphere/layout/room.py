@@ -249,7 +249,7 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
 
 def goal_text(surface, modifier, units):
     """Scene text of a surface that emits importance: its outlines, a little above themselves."""
-    text = f"void alias {modifier} {surface.polygons[0].modifier}\n"
+    text = f"inherit alias {modifier} {surface.polygons[0].modifier}\n"  # with its pattern
     for i, (outline, normal) in enumerate(surface.outlines):
         corners = outline + normal * LIFT * units
         corners = corners if vector_of(corners) @ normal > 0 else corners[::-1]
