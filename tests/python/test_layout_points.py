@@ -134,6 +134,17 @@ class Layouts(unittest.TestCase):
         self.assertLess(int(dimmed), int(all_watts))
         self.assertIn(f"1 luminaires, {all_watts} W, {dimmed} W as dimmed", page)
 
+    def test_what_would_meet_a_goal(self):
+        """Too few places, and two goals against each other."""
+        run, page, _ = self.run_on(["place panel 4 2.5 2.9", "illuminance floor 200"], "", "-c", "0", "-d", "64", "-b", "0", "-s", "2")
+        best = re.search(r"Cannot be met: illuminance floor: 200 lx is wanted, ([0-9]+) lx is the nearest to all goals; "
+                         r"all that can hang here gives \1 lx: ([0-9.]+) times the light of the luminaires", run.stdout)
+        self.assertAlmostEqual(float(best[2]), 200 / int(best[1]), delta=0.02)
+        self.assertIn(best[0], page)
+        lines = ["place panel 4 2.5 2.9", "illuminance floor 30", "illuminance ceiling 1", "illuminance south 1 most 3"]
+        run, _, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "1", "-s", "2")
+        self.assertRegex(run.stdout, "Cannot be met: illuminance floor: .* alone it could have [0-9]+ lx: the other goals")
+
     def test_rows_are_even(self):
         lines = ["grid panel ceiling spacing 1 margin .5", "rows", "most 9", "illuminance floor 300 uniformity .3"]
         run, page, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "5")

@@ -314,6 +314,15 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
     return Layout(chosen, levels, bound, misses, proven)
 
 
+def most_of(design, candidates, row, seconds):
+    """The most that a goal can get if it is the only one, by its row: what the row has, where all luminaires hang as they may."""
+    program = Program()
+    x = program.variables(len(candidates), -row.coefficients, integer=True)
+    arrange(program, design, candidates, x)
+    found = program.solve(seconds, 0.01)
+    return None if found.x is None else float(row.coefficients @ np.round(found.x[x]) + row.constant)
+
+
 def dim(design, watts, scene, rows, chosen, allowed, seconds):
     """The levels of the chosen luminaires in a scene that take the least power."""
     if not design.dims() or len(chosen) == 0:

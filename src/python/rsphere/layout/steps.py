@@ -17,7 +17,7 @@ from .design import read_design
 from .forward import Forward, daylight_of
 from .drawing import drawing
 from .room import read_polygons
-from .search import search
+from .search import most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
 from .wanted import Light, answers, light_of, receiver_of, rows_of
@@ -27,6 +27,7 @@ AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
 SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
+REMEDY_SECONDS = 3  # for what would meet a goal
 HARDLY_LIT = 0.02  # of what is wanted: less light than this from all candidates together means that a goal faces the wrong way
 
 
@@ -51,6 +52,7 @@ class Steps:
         self.design = read_design(given.goals, self.polygons)
         self.title = given.title or f"Layout for {os.path.basename(given.goals)}"
         self.rows = []  # of the table: (scene, goal, planned, found)
+        self.miss_texts = {}  # by scene and goal
 
     def timed(self, name, function):
         begin = time.monotonic()
@@ -203,10 +205,25 @@ class Steps:
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds['search']:.1f} s)")
         for s, goal, slack in layout.misses:
             name = d.all_scenes()[s].name
-            print(f"{self.miss_head()}{' in ' + name if name else ''}: {self.miss_text(s, goal)}")
+            text = self.miss_texts[s, id(goal)] = f"{self.miss_text(s, goal)}{self.remedy(s, goal)}"
+            print(f"{self.miss_head()}{' in ' + name if name else ''}: {text}")
 
     def miss_head(self):
         return "Cannot be met" if self.layout.proven else "Not found in the time of -s"
+
+    def remedy(self, s, goal):
+        """What would meet a goal that is missed: whether other goals stand against it, or how much more light it takes."""
+        if goal.kind not in ("illuminance", "cylindrical"):
+            return ""
+        row = rows_of(self.transfer, [goal], self.light, self.daylight[s], {})[0]
+        more = most_of(self.design, self.candidates, row, REMEDY_SECONDS)
+        if more is None:
+            return ""
+        best = more + goal.value
+        if best >= goal.value:
+            return f"; alone it could have {shown(goal, best)}: the other goals or their limits stand against it"
+        return (f"; all that can hang here gives {shown(goal, best)}: {goal.value / max(best, 1e-9):.2f} times the light of the luminaires, "
+                f"more places, or a goal of {shown(goal, best)} would do")
 
     def miss_text(self, s, goal):
         planned = self.planned(s)
@@ -319,7 +336,7 @@ class Steps:
         page, d = Page(self.title), self.design
         page.banner(self.met() and self.agree(), self.verdict())
         for s, goal, _ in self.layout.misses:
-            page.banner(False, f"{self.miss_head()}: {d.all_scenes()[s].name} {self.miss_text(s, goal)}")
+            page.banner(False, f"{self.miss_head()}: {d.all_scenes()[s].name + ' ' if d.all_scenes()[s].name else ''}{self.miss_texts[s, id(goal)]}")
         for s, (scene, levels) in enumerate(zip(d.all_scenes(), self.layout.levels)):
             title = self.layout_title(scene, levels)
             darkest = [place for name, place in self.darkest if name == scene.name]
