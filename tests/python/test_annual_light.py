@@ -256,11 +256,19 @@ class Closed(unittest.TestCase):
         groups = [group_of(name, polygons, np.array(sensors)[:, :3]) for name in "ab"]
         together = self.light(text, sensors, hours, estimates=8).year.open.mean(axis=0)
         parts = self.light(text, sensors, hours, groups, estimates=8)
+        self.assertIsNone(parts.base, "all light comes through the groups")
         np.testing.assert_allclose(parts.year.open.mean(axis=0).sum(axis=1), together.sum(axis=1), rtol=0.03)
         self.assertEqual(set(parts.states.ravel()), {UP, LOWERED})
         lowered = (parts.states == LOWERED).any(axis=1)
         np.testing.assert_array_equal(parts.year.lux[:, :, ~lowered], parts.year.open[:, :, ~lowered])
         self.assertLess(parts.year.lux[:, :, lowered].sum(), 0.6 * parts.year.open[:, :, lowered].sum())
+        # A third opening belongs to no group: its light counts once.
+        text = text.replace("black polygon top 0 0 12 0 0 3 0 4 3 4 4 3 4 0 3\n", "black polygon top 0 0 12 0 0 3 0 4 3 4 4 3 4 1.5 3\n")
+        together = self.light(text, sensors, hours, estimates=8).year.open.mean(axis=0)
+        parts = self.light(text, sensors, hours, groups, estimates=8)
+        self.assertIsNotNone(parts.base)
+        np.testing.assert_allclose(parts.year.open.mean(axis=0).sum(axis=1), together.sum(axis=1), rtol=0.04)
+        np.testing.assert_allclose(parts.year.direct, self.light(text, sensors, hours, estimates=1).year.direct, atol=1e-6)
 
     def test_a_scene_with_a_roof_over_everything(self):
         text = BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\nblack sphere s 0 0 4 0 0 0 50\n"

@@ -25,6 +25,8 @@ FACTOR = 3  # of patches.cal: Tregenza's patches are divided into 3 x 3; light t
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKY = "void glow rsphere_sky 0 0 4 1 1 1 0\nrsphere_sky source rsphere_dome 0 0 4 0 0 1 360\n"
 DECLINATION = 23.45  # degrees, the largest
+SKY_WEIGHT, SUN_WEIGHT = 0.05, 0.3  # of a ray of a sensor, below which Russian roulette ends paths: least time for equal noise
+NEGLIGIBLE = 1e-3  # light with all groups closed, by that of the scene as it is drawn
 JUDGED = 16  # hours in which reflected sun is computed from the true position, too
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
 
@@ -70,8 +72,8 @@ class Settings:
     bounces: int = 8
     divisions: int = 256  # for the sky
     sun_divisions: int = 64  # for reflected sun; noise of both is about equal then
-    seasons: int = 10  # declinations of the sun, and hours between its positions: by these the light of single hours errs by 1% in
-    hours: float = 2 / 3  # a classroom with windows to the south
+    seasons: int = 13  # declinations of the sun, and hours between its positions: by these the light of single hours errs by 1% in
+    hours: float = 0.5  # a classroom with windows to the south
     threads: int = 0
 
 
@@ -116,15 +118,21 @@ class Pass:
         value = scene.contributions(self.sensors, of=of, bins=bins, **options).value @ VISIBLE
         return value.reshape(len(self.sensors), -1)
 
+    def sky(self, number):
+        """One estimate of the light of all patches."""
+        s = self.settings
+        return self.contributions(self.by_sky, bins=self.bins, ambient_bounces=s.bounces, ambient_divisions=s.divisions,
+                                  limit_weight=SKY_WEIGHT / s.divisions, rotation=number)
+
     def estimate(self, number):
         """One estimate of the light of all patches, and of the reflected light of the sun. number: of the estimate."""
         s = self.settings
-        common = dict(ambient_bounces=s.bounces, limit_weight=1e-5, rotation=number)
-        sky = self.contributions(self.by_sky, bins=self.bins, ambient_divisions=s.divisions, **common)
+        sky = self.sky(number)
         PROGRESS.advance()
         sun = self.direct_beside
         if self.by_sun:
-            sun = self.contributions(self.by_sun, self.reflected_from, ambient_divisions=s.sun_divisions, **common) - sun
+            sun = self.contributions(self.by_sun, self.reflected_from, ambient_divisions=s.sun_divisions,
+                                     limit_weight=SUN_WEIGHT / s.sun_divisions, ambient_bounces=s.bounces, rotation=number) - sun
         PROGRESS.advance()
         return sky, sun
 
@@ -166,6 +174,8 @@ class Light:
         elif n:
             closed = ["".join(g.closed for g in groups if g is not group) for group in groups]
             self.base = made("closed", *(g.closed for g in groups))
+            if self.base.sky(0).sum() < NEGLIGIBLE * self.passes[0][0].sky(0).sum():
+                self.base = None  # there are no other windows
             self.passes = [[made(f"open{i}", closed[i]), made(f"lowered{i}", closed[i], g.lowered)] for i, g in enumerate(groups)]
         direct = np.array([[self.direct_of(p) for p in states] for states in self.passes])
         self.direct = direct
