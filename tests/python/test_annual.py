@@ -1,6 +1,7 @@
 """rsphere-annual with coefficients of a file: faults of it and of weather files are one line with file and line, and nothing that
 is left out is left out silently."""
 import os
+import re
 import tempfile
 import unittest
 
@@ -114,6 +115,27 @@ class Annual(unittest.TestCase):
         self.refuse("co.f: has a coefficient that is not a number", wea, coefficients(FORMAT="ascii") + b"x\n")
         self.refuse("co.f: has 439 coefficients, not 438", wea, coefficients(FORMAT="ascii") + b"1\n")
         self.refuse("co.f: has a coefficient below 0", wea, coefficients(FORMAT="ascii")[:-5] + b"-1\n")
+
+    def test_any_word_replaced(self):
+        """A line of fault with its place, or numbers; never a traceback, and never silence about what was not understood."""
+        words = ["nan", "-1", "1e99", "", "x", "9999", "1,5", "0x1", "\0", "\u0663", "24.5", "1 1"]
+        random = np.random.default_rng(5)
+        for name, text in (("w.wea", WEA + "\n".join(DAY)), ("w.epw", epw())):
+            for k, word in enumerate(words):
+                lines = text.split("\n")
+                row = int(random.integers(0, 6)) if k % 3 == 0 and name == "w.wea" else int(random.integers(6 if name == "w.wea" else 8, len(lines) - 1))
+                parts = lines[row].split("," if name == "w.epw" else " ")
+                place = int(random.choice([1, 2, 3, 14, 15] if name == "w.epw" else range(len(parts))))
+                parts[place] = word
+                lines[row] = ("," if name == "w.epw" else " ").join(parts)
+                with self.subTest(word=word, row=row, place=place):
+                    status, out, err = self.run_annual("\n".join(lines).encode(), name=name)
+                    self.assertNotIn("Traceback", err)
+                    if status:
+                        self.assertEqual((status, out, err.count("\n")), (1, "", 1), err)
+                        self.assertRegex(err, rf"^rsphere-annual: fatal - {re.escape(name)}(:[0-9]+)?: ")
+                    else:
+                        self.assertNotIn("nan", out)
 
     def test_command_lines(self):
         for words, said in (([], "the following arguments are required: --weather"), (["--weather", "w"], "needs scene files, or --coeff"),

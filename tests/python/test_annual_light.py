@@ -298,6 +298,19 @@ class Closed(unittest.TestCase):
             self.assertTrue(out.startswith(stream.read()))
         xml.dom.minidom.parse(os.path.join(folder, "useful.svg"))
 
+    def test_accuracy_adds_estimates(self):
+        """Until noise turns no verdict, or the light of the year at a sensor is known as well as asked for."""
+        found = {}
+        for words in ((), ("--accuracy", "0.5"), ("--accuracy", "0.02")):
+            with self.command("-e", "2", "--spacing", "1.4", *words, stderr=subprocess.DEVNULL) as run:
+                out, _ = run.communicate()
+            self.assertEqual(run.returncode, 0)
+            found[words] = [float(x) for x in re.search(r"([0-9]+) independent .* error of ([0-9.]+)%", out).groups()] + ["noise could turn" in out]
+        self.assertEqual([n for n, *_ in found.values()][:2], [2, 8])
+        count, error, turns = found["--accuracy", "0.02"]
+        self.assertTrue(error <= 2 or not turns, found)
+        self.assertEqual(count % 8, 0)
+
     def test_control_c_leaves_what_is_done(self):
         mine, its = pty.openpty()
         with self.command("-e", "512", "--spacing", "1.4", stderr=its) as run:
