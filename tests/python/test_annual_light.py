@@ -327,7 +327,8 @@ class Closed(unittest.TestCase):
 
     def test_shades_that_are_not_there(self):
         for words, said in ((["--shades", "pain"], 'no polygon with the modifier "pain"; it has black'), (["--on", "flor"], 'no polygon or modifier "flor"'),
-                            (["--shades", "black=2"], "what is behind = must be from 0 to 0.5"), (["--sensors", "none"], "none: cannot be read")):
+                            (["--shades", "black=2"], "what is behind = must be from 0 to 0.5"), (["--sensors", "none"], "none: cannot be read"),
+                            (["--shades", "black=blinds.rad"], "blinds.rad: cannot be read")):
             with self.command(*words, stderr=subprocess.PIPE) as run:
                 out, err = run.communicate()
             self.assertEqual((run.returncode, out, err.count("\n")), (1, "", 1), err)

@@ -26,6 +26,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SKY = "void glow rsphere_sky 0 0 4 1 1 1 0\nrsphere_sky source rsphere_dome 0 0 4 0 0 1 360\n"
 DECLINATION = 23.45  # degrees, the largest
 SKY_WEIGHT, SUN_WEIGHT = 0.05, 0.3  # of a ray of a sensor, below which Russian roulette ends paths: least time for equal noise
+DIM = 0.02  # of the mean light; darker sensors are inside of something
 NEGLIGIBLE = 1e-3  # light with all groups closed, by that of the scene as it is drawn
 JUDGED = 16  # hours in which reflected sun is computed from the true position, too
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
@@ -221,9 +222,10 @@ class Light:
         return sum(map(len, self.passes)) + bool(self.base)
 
     def error(self):
-        """Relative standard error of the light of the year at a sensor, rms of the sensors."""
+        """Relative standard error of the light of the year at a sensor, rms of the sensors that have DIM of the mean or more."""
         light, error = estimated(lambda lux: lux.sum(axis=1), self.year.lux)
-        return float(np.sqrt(((error / np.maximum(light, 1e-9)) ** 2).mean()))
+        bright = light > DIM * light.mean()
+        return float(np.sqrt(((error[bright] / light[bright]) ** 2).mean())) if bright.any() else 0.0
 
     def notes(self):
         """Sentences on errors and shades."""

@@ -1,11 +1,10 @@
 """Shades: groups of windows, each with its blinds up or lowered, and the rule of IES LM-83 by which they are lowered."""
-import os
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
-from ..fault import Fault, number
+from ..fault import NUMBER, Fault, lines_of, number
 from .verdicts import SUNNY
 
 TRANSMITTANCE, REFLECTANCE = 0.02, 0.5  # of lowered blinds (the first by LM-83), both diffuse
@@ -45,9 +44,8 @@ def group_of(word, polygons, sensors):
     if not windows:
         known = ", ".join(sorted({p.modifier for p in polygons})[:8])
         raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
-    if state and os.path.exists(state):
-        with open(state, encoding="latin-1") as stream:
-            lowered = stream.read()
+    if state and not NUMBER.fullmatch(state):
+        lowered = "\n".join(lines_of(state)) + "\n"
     else:
         t = number(state, "--shades " + word, None, "what is behind =", 0, 0.5) if state else TRANSMITTANCE
         color = REFLECTANCE + t
