@@ -48,6 +48,7 @@ FAULTS = (
     (2, "sensor s 1e9 1 1 0 0 1", 3, '"s" is far from the scene'),
     (2, "daylight sky.rad", 3, "daylight belongs to a scene"),
     (2, "scene morning\ndaylight .", 4, 'there is no file ".*[.]"'),
+    (2, "rows odd", 3, 'rows are even, or "uneven", not "odd"'),
     (2, "# nothing is wanted", None, "there is no goals"),
 )
 

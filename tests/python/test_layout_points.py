@@ -147,7 +147,11 @@ class Layouts(unittest.TestCase):
 
     def test_rows_are_even(self):
         lines = ["grid panel ceiling spacing 1 margin .5", "rows", "most 9", "illuminance floor 300 uniformity .3"]
-        run, page, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "5")
+        run, page, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "1")
+        watts = float(re.search(r"Layout: [0-9]+ luminaires, ([0-9.]+) W", run.stdout)[1])
+        lines[1] = "rows uneven"
+        uneven, _, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "1")
+        self.assertLessEqual(float(re.search(r"Layout: [0-9]+ luminaires, ([0-9.]+) W", uneven.stdout)[1]), watts)
         cells = re.findall(r'<tr><td class="words">[0-9]+</td><td class="words">panel</td><td class="">([0-9.]+)</td><td class="">([0-9.]+)</td>', page)
         places = np.array(cells, dtype=float)
         self.assertGreater(len(places), 3, run.stdout)

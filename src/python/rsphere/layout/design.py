@@ -79,6 +79,7 @@ class Design:
     scenes: list = field(default_factory=list)
     dimming: bool = None
     rows: bool = False
+    even: bool = True  # rows are evenly spaced
     apart: float = 0.0  # units of the scene
     mirrors: list = field(default_factory=list)  # (axis, coordinate)
     most: int = None
@@ -378,6 +379,11 @@ class Reader:
 
     def read_rows(self, w):
         self.design.rows = True
+        if w.more():
+            word_here = w.text("uneven")
+            if word_here != "uneven":
+                raise w.fault(f'rows are even, or "uneven", not "{word_here[:40]}"')
+            self.design.even = False
 
     def read_apart(self, w):
         self.design.apart = w.number("the least distance between luminaires", 0, 1e9)

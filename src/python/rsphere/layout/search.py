@@ -127,11 +127,11 @@ def arrange(program, design, candidates, x):
             elif i < j:
                 program.constrain([x[i], x[j]], [1, -1], 0, 0)
     if design.rows:
-        arrange_rows(program, candidates, x)
+        arrange_rows(program, candidates, x, design.even)
 
 
-def arrange_rows(program, candidates, x):
-    """Of each grid, some rows and some columns are used, evenly spaced, and a luminaire of one kind hangs wherever they cross."""
+def arrange_rows(program, candidates, x, even):
+    """Of each grid, some rows and some columns are used, evenly spaced or not, and a luminaire of one kind hangs wherever they cross."""
     used, places = {}, {}
 
     def variable(key):
@@ -151,7 +151,7 @@ def arrange_rows(program, candidates, x):
     for (grid, row, column), members in crossings.items():
         crossing = [*x[members], variable(("row", grid, row)), variable(("column", grid, column))]
         program.constrain(crossing, [1] * len(members) + [-1, -1], -1, np.inf)
-    for kind, grid in dict.fromkeys(key[:2] for key in places):
+    for kind, grid in dict.fromkeys(key[:2] for key in places) if even else ():
         keys = sorted((key for key in places if key[:2] == (kind, grid)), key=places.get)
         arrange_evenly(program, [used[key] for key in keys], [places[key] for key in keys])
     for grid in {key[1] for key in used}:
