@@ -24,7 +24,18 @@ std::string directions(char weights, int base) {
   return fmt::format("-Sw {} -Sn {} -Sx {}", weights, base, 2 * base);
 }
 
+std::vector<std::string> linesOfRays() {
+  std::vector<std::string> lines;
+  for (const int rays : {256, 1024, 4096}) {
+    lines.push_back(fmt::format("-aa 0 -ad {} -as 0 -dj 1 -dt 0 -ds .05 -st 0 -lw 1e-4", rays));
+    lines.push_back(fmt::format("-aa .1 -ad {} -as {} -dj 1 -dt 0 -ds .05 -st 0 -lw 1e-4", rays, rays / 2));
+  }
+  for (const double accuracy : {.02, .01, .005}) lines.push_back(fmt::format("-Sa {}", accuracy));
+  return lines;
+}
+
 std::vector<std::string> usualLines(const TradeOptions& options) {
+  if (!options.sphereMode) return linesOfRays();
   std::vector<std::string> lines;
   for (const int base : {128, 256, 512, 1024, 2048, 4096}) lines.push_back(directions('c', base));
   for (const int base : {512, 2048, 8192}) lines.push_back(directions('h', base));
@@ -62,10 +73,14 @@ std::vector<std::vector<std::string>> ladder(const TradeOptions& options) {
   if (settings.empty()) throw rad::Error(fmt::format("{}: no settings", options.ladder));
   if (options.bounces)
     for (int bounces = 0; bounces < options.ray.ambientBounces; ++bounces)
-      settings.push_back(wordsOf(fmt::format("{} -ab {}", directions('c', 1024), bounces)));
+      settings.push_back(
+          wordsOf(fmt::format("{} -ab {}", options.sphereMode ? directions('c', 1024) : "-Sa .01", bounces)));
   return settings;
 }
 
-std::vector<std::string> referenceWords() { return wordsOf("-Sw c -Sn 4096 -Sx 8192 -Sk 1"); }
+std::vector<std::string> referenceWords(bool sphereMode) {
+  return wordsOf(sphereMode ? "-Sw c -Sn 4096 -Sx 8192 -Sk 1"
+                            : "-aa 0 -ad 4096 -as 0 -lw 1e-6 -dj 1 -dt 0 -ds .05 -st 0");
+}
 
 }  // namespace rsphere

@@ -12,6 +12,6 @@ namespace rsphere {
 std::vector<std::vector<std::string>> ladder(const TradeOptions& options);
 
 // The options of the reference, with which the answers of all settings are compared.
-std::vector<std::string> referenceWords();
+std::vector<std::string> referenceWords(bool sphereMode);
 
 }  // namespace rsphere

@@ -38,10 +38,12 @@ struct Series {
 constexpr Series kSeries[] = {{"equal weights (-Sw h)", "#888888"},
                               {"the paper's cells (-Sw v)", "#d95f02"},
                               {"cells within silhouettes (-Sw c)", "#1b6fb3"},
-                              {"until an accuracy (-Sa)", "#1a9850"}};
+                              {"until an accuracy (-Sa)", "#1a9850"},
+                              {"rays, as -ad and -as say", "#7570b3"}};
 
 size_t seriesOf(const Figures& f) {
   if (std::find(f.words.begin(), f.words.end(), "-Sa") != f.words.end()) return 3;
+  if (std::find(f.words.begin(), f.words.end(), "-aa") != f.words.end()) return 4;
   const auto weights = std::find(f.words.begin(), f.words.end(), "-Sw");
   if (weights == f.words.end() || weights + 1 == f.words.end()) return 2;
   return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
@@ -109,7 +111,8 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
     extent.push_back(pointOf(f));
     if (f.best) best.push_back(f);
   }
-  const std::string title = fmt::format("{}: {} points", subject.scene, subject.points.size() / 3);
+  const std::string title =
+      fmt::format("{}: {} points", subject.scene, subject.points.size() / subject.perPoint);
   if (extent.empty()) return barsSvg(title + ": no setting has both an error and a time", {});
   Plot plot(title, extent, {"CPU time a point, ms"}, {"rms error, relative to the reference", 1, "%"});
   const double wanted = 100 * subject.accuracy;
@@ -170,7 +173,7 @@ PageTable pointsTable(const Reference& reference, const TradeSubject& subject) {
   PageTable table;
   table.head = {"Point", "x", "y", "z", "Mean radiance, W/sr/m2"};
   for (size_t i = 0; i < reference.points(); ++i) {
-    const double* p = &subject.points[3 * i];
+    const double* p = &subject.points[subject.perPoint * i];
     table.rows.push_back({{std::to_string(i + 1), fmt::format("{:g}", p[0]), fmt::format("{:g}", p[1]),
                            fmt::format("{:g}", p[2]), fmt::format("{:.4g}", reference.mean(i))}});
   }

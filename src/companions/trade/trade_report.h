@@ -21,7 +21,8 @@ struct TradeSubject {
   std::string scene;       // files of the scene
   std::string pointsFile;  // file of points, and number of points in it
   size_t pointsInFile = 0;
-  std::vector<double> points;  // measured points, three numbers each
+  std::vector<double> points;  // measured points, or the origins and directions of rays
+  size_t perPoint = 3;         // numbers of each
   double accuracy = 0;         // requested accuracy
   int bounces = 0;             // of the reference (-ab)
   Recommendation recommended;

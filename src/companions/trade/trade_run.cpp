@@ -38,15 +38,25 @@ constexpr size_t kEstimates = 8;
 // which is sufficient to estimate its bias.
 constexpr size_t kLeastRepeats = 2;
 
-std::vector<double> chosenPoints(const std::vector<double>& all, int most) {
-  const size_t count = all.size() / 3, chosen = std::min(count, static_cast<size_t>(most));
+// size: numbers of a record.
+std::vector<double> chosenPoints(const std::vector<double>& all, size_t size, int most) {
+  const size_t count = all.size() / size, chosen = std::min(count, static_cast<size_t>(most));
   std::vector<double> points;
   for (size_t k = 0; k < chosen; ++k) {
-    const auto from = all.begin() + static_cast<ptrdiff_t>(3 * (k * count / chosen));
-    points.insert(points.end(), from, from + 3);
+    const auto from = all.begin() + static_cast<ptrdiff_t>(size * (k * count / chosen));
+    points.insert(points.end(), from, from + static_cast<ptrdiff_t>(size));
   }
   return points;
 }
+
+// Points share the patches of all repeats, rays have others in each.
+void rotate(Setting& setting, uint64_t rotation) {
+  setting.options.sphere.rotation = rotation;
+  if (!setting.options.sphereMode) setting.options.ray.rotation = rotation;
+}
+
+// Whether a setting's answers have errors. Those of rays have them with -Sa; -oe would change the answers.
+bool statesErrors(const AnswerOptions& options) { return options.sphereMode || options.sphere.accuracy > 0; }
 
 // All measurements, which are reported if a signal arrives.
 struct Measured {
@@ -89,8 +99,9 @@ class Trade {
 // The options of the command line, overridden by those of the setting.
 Setting Trade::settingOf(std::span<const std::string> words) const {
   std::vector<std::string> line{options_.program};
-  line.insert(line.end(), options_.words.begin(), options_.words.end());
-  line.insert(line.end(), {"-S+", "-Sa", "0"});
+  // -Sa is the accuracy asked for, but not of each setting.
+  for (const UsedOption& option : used_)
+    if (option.entry->name != "-Sa") line.insert(line.end(), option.words.begin(), option.words.end());
   line.insert(line.end(), words.begin(), words.end());
   line.insert(line.end(), options_.scene.begin(), options_.scene.end());
   TradeOptions options;
@@ -115,17 +126,17 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
                     Trial& trial) const {
   trial.words.assign(words.begin(), words.end());
   Setting setting = given;
-  uint64_t& rotation = setting.options.sphere.rotation;
-  const uint64_t first = rotation;
+  const uint64_t first = setting.options.sphere.rotation;
   const bool estimates = setting.options.sphere.accuracy > 0;
   const auto repeats = static_cast<uint64_t>(options_.repeats);
   bool whole = true;
   for (uint64_t r = 1; whole && r <= repeats; ++r) {
-    rotation = first + r;
+    rotate(setting, first + r);
     whole = trials.run(setting, estimates, true, trial);
   }
-  for (uint64_t r = repeats + 1; whole && trial.estimates.size() < kEstimates; ++r) {
-    rotation = first + r;
+  const size_t wanted = statesErrors(setting.options) ? kEstimates : 0;
+  for (uint64_t r = repeats + 1; whole && trial.estimates.size() < wanted; ++r) {
+    rotate(setting, first + r);
     whole = trials.run(setting, true, false, trial);
   }
   return whole;
@@ -133,7 +144,7 @@ bool Trade::measure(std::span<const std::string> words, const Setting& given, Tr
 
 // Returns false after a signal.
 bool Trade::makeReference(Trials& trials, double target, Measured& measured) const {
-  Setting setting = settingOf(referenceWords());
+  Setting setting = settingOf(referenceWords(options_.sphereMode));
   Trial trial;
   ReferenceProgress at;
   at.leastRotations = kLeastRotations;
@@ -162,7 +173,7 @@ bool Trade::makeReference(Trials& trials, double target, Measured& measured) con
     saySlow();
   };
   for (uint64_t r = 0; r < kMostRotations; ++r) {
-    setting.options.sphere.rotation = kReferenceRotation + r;
+    rotate(setting, kReferenceRotation + r);
     if (!trials.run(setting, false, false, trial, r == 0 ? firstPoints : std::function<void()>()))
       return false;
     measured.reference.emplace(trial.answers);
@@ -188,7 +199,7 @@ std::string Trade::pasteLine(std::span<const std::string> words) const {
   std::vector<std::string> line{"rsphere"};
   for (const UsedOption& option : used_) {
     const std::string_view name = option.entry->name;
-    if (option.entry->group == Group::companion || name == "-Sa" || name == "-S" || name == "-t" ||
+    if (option.entry->group == Group::companion || name == "-Sa" || name == "-t" ||
         std::find(words.begin(), words.end(), name) != words.end())
       continue;
     line.insert(line.end(), option.words.begin(), option.words.end());
@@ -212,8 +223,8 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
   std::string text = fmt::format(
       "{} points; reference: {} rotations of \"{}\", relative standard error {:.3f}% (mean over the points "
       "{:.3f}%)\n",
-      reference.points(), reference.repeats(), fmt::join(referenceWords(), " "), 100 * reference.error(),
-      100 * reference.meanError());
+      reference.points(), reference.repeats(), fmt::join(referenceWords(options_.sphereMode), " "),
+      100 * reference.error(), 100 * reference.meanError());
   text += tradeTable(all);
   if (repeatsOfLast > 0)
     text += fmt::format("The last setting has {} of {} repeats.\n", repeatsOfLast, options_.repeats);
@@ -225,12 +236,13 @@ void Trade::report(const std::vector<Figures>& all, size_t repeatsOfLast, const 
   subject.pointsFile = options_.scene.back();
   subject.pointsInFile = pointsInFile_;
   subject.points = points_;
+  subject.perPoint = static_cast<size_t>(options_.numbersPerRecord());
   subject.accuracy = accuracy;
   subject.recommended = recommend(all, accuracy);
   const Figures& chosen = all[subject.recommended.index];
   subject.command = pasteLine(chosen.words);
   subject.given = givenLine();
-  subject.referenceWords = fmt::format("{}", fmt::join(referenceWords(), " "));
+  subject.referenceWords = fmt::format("{}", fmt::join(referenceWords(options_.sphereMode), " "));
   subject.repeats = options_.repeats;
   subject.repeatsOfLast = repeatsOfLast;
   text +=
@@ -275,8 +287,9 @@ void Trade::run() {
     }
   }
   const std::vector<double> allPoints = readRecords(options_.scene.back(), options_);
-  pointsInFile_ = allPoints.size() / 3;
-  points_ = chosenPoints(allPoints, options_.mostPoints);
+  const auto size = static_cast<size_t>(options_.numbersPerRecord());
+  pointsInFile_ = allPoints.size() / size;
+  points_ = chosenPoints(allPoints, size, options_.mostPoints);
 
   const rad::Warn warn = [&](std::string_view text) { messages_.warning(text); };
   AnswerOptions withoutPoints = options_;
@@ -284,7 +297,7 @@ void Trade::run() {
   const Scene scene = loadScene(withoutPoints, warn);
   signals_.defer(true);
   Measured measured;
-  Trials trials(scene, points_, signals_, [&] {
+  Trials trials(scene, points_, size, signals_, [&] {
     _exit(exitStatus(messages_, [&] {
       conclude(measured, accuracy);
       return 0;
@@ -338,7 +351,10 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
               StopSignals& signals) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
-  if (!options.sphereMode) throw rad::Error("-S-: only settings of sphere mode can be measured");
+  const bool bounces = std::any_of(used.begin(), used.end(),
+                                   [](const UsedOption& option) { return option.entry->name == "-ab"; });
+  if (!options.sphereMode && !bounces)
+    throw rad::Error("-S-: needs -ab, because the settings of rays are compared with equal bounces");
   if (options.sphere.glare.wanted) throw rad::Error("-Su: the errors of glare are stated by -oUVBG");
   if (options.separate)
     throw rad::Error("-Sp: errors are measured for sums, not for the parts of contributors");

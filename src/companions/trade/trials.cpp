@@ -1,9 +1,13 @@
 #include "companions/trade/trials.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "answer/answer_rays.h"
 #include "base/colorimetry.h"
 #include "companions/measure/work.h"
+#include "estimate/ray_estimator.h"
+#include "process/threads.h"
 
 namespace rsphere {
 
@@ -16,27 +20,74 @@ const Transport& Trials::transportOf(const Setting& setting) {
   return *transport;
 }
 
+Trials::Answerer Trials::points(const Setting& setting, bool standardErrors) {
+  const AnswerOptions& options = setting.options;
+  const auto workers = std::make_shared<PointWorkers>(transportOf(setting), options, standardErrors,
+                                                      [this] { signals_.check(); });
+  return [this, workers, &options](size_t i, unsigned worker) {
+    const PointAnswer a =
+        workers->answer(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), worker);
+    return Answer{photopicOf(a.mean.color, options.ray.sampling), a.brightnessError, a.directions};
+  };
+}
+
+// Each repeat has patches of its own, whose noise all rays share.
+Trials::Answerer Trials::rays(const Setting& setting) {
+  struct Workers {
+    Workers(const Scene& scene, const AnswerOptions& options, bool estimates)
+        : transport(scene, options.ray, options.irradiance) {
+      if (estimates)
+        estimator.emplace(transport,
+                          RayEstimator::Options{options.sphere.accuracy, options.sphere.accuracyFloor});
+      for (unsigned i = 0; i < threadCount(options.threads); ++i) {
+        tracers.emplace_back();
+        if (estimator)
+          tracers.back() = estimator->tracers();
+        else
+          tracers.back().push_back(transport.pathTracer());
+      }
+    }
+    Transport transport;
+    std::optional<RayEstimator> estimator;
+    std::vector<std::vector<PathTracer>> tracers;
+  };
+  const AnswerOptions& options = setting.options;
+  const auto workers = std::make_shared<Workers>(scene_, options, options.sphere.accuracy > 0);
+  return [this, workers, &options](size_t i, unsigned worker) {
+    const std::span<const double> numbers = points_.subspan(perRecord_ * i, perRecord_);
+    const InputRay in = inputRay(numbers.data(), options.irradiance, scene_.samePlace);
+    const uint64_t seed = seedOfRay(numbers, i, options);
+    std::vector<PathTracer>& tracers = workers->tracers[worker];
+    if (!workers->estimator)
+      return Answer{
+          photopicOf(tracers[0].trace(in.origin, in.direction, 0, seed).value.color, options.ray.sampling)};
+    const auto estimate = workers->estimator->estimate(tracers, in.origin, in.direction, 0, seed, {},
+                                                       [this] { signals_.check(); });
+    return Answer{photopicOf(estimate.ray.value.color, options.ray.sampling), estimate.brightnessError};
+  };
+}
+
 bool Trials::run(const Setting& setting, bool standardErrors, bool timed, Trial& trial,
                  const std::function<void()>& pointAnswered) {
   const AnswerOptions& options = setting.options;
-  const Transport& transport = transportOf(setting);
+  if (options.sphereMode) transportOf(setting);  // shared, so that its time does not count
   const double begin = threadSeconds();
-  PointWorkers workers(transport, options, standardErrors, [this] { signals_.check(); });
+  const Answerer workers = options.sphereMode ? points(setting, standardErrors) : rays(setting);
   const double setup = threadSeconds() - begin;
-  const size_t count = points_.size() / 3;
-  std::vector<PointAnswer> answers(count);
+  const size_t count = points();
+  std::vector<Answer> answers(count);
   std::vector<double> seconds(count);
   const auto answer = [&](size_t i, unsigned worker) {
     const double start = threadSeconds();
-    answers[i] = workers.answer(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), worker);
+    answers[i] = workers(i, worker);
     seconds[i] = threadSeconds() - start;
     if (pointAnswered) pointAnswered();
   };
   if (!forEachIndex(count, options.threads, &signals_, answer, leave_)) return false;
   trial.answers.points = count;
   for (size_t i = 0; i < count; ++i) {
-    trial.answers.values.push_back(photopicOf(answers[i].mean.color, options.ray.sampling));
-    if (standardErrors) trial.estimates.push_back(answers[i].brightnessError);
+    trial.answers.values.push_back(answers[i].value);
+    if (standardErrors) trial.estimates.push_back(answers[i].error);
     if (!timed) continue;
     const auto n = static_cast<double>(++trial.timed);
     trial.seconds += (seconds[i] - trial.seconds) / n;

@@ -39,7 +39,7 @@ TEST(Ladder, IsMadeOfOptions) {
   EXPECT_TRUE(options.bounces);
   auto settings = ladder(options);
   EXPECT_GT(settings.size(), 15u);
-  settings.push_back(referenceWords());
+  settings.push_back(referenceWords(true));
   for (auto words : settings) {
     words.insert(words.begin(), "rsphere");
     words.push_back("scene");
