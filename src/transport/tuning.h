@@ -49,7 +49,7 @@ struct Interpolation {
   // rays, pictures of RADIANCE's cabin and office take a quarter less time for nearly equal errors
   // (tests/bench/rtrace/runs/2026-11-27-patches.txt). By daylight, with 128 instead of 768 rays, a picture of
   // a bedroom behind blinds takes 3.1 instead of 11.6 s, with a median error of 3.5 instead of 2.5%
-  // (RADIANCE: 5.7 s, 13%), and one of a museum with a skylight 1.7 instead of 7.1 s, with equal errors (5 s).
+  // (RADIANCE: 5.7 s, 13%), one of a museum with a skylight 1.7 instead of 7.1 s, with equal errors (5 s).
   RSPHERE_TUNED(Interpolation, double, kRaysByLamps, 7.5);
   RSPHERE_TUNED(Interpolation, double, kRaysByOpenings, 2.7);
   static constexpr int kPartByLamps = 2, kPartByOpenings = 6;

@@ -11,8 +11,8 @@
 
 namespace rsphere {
 
-// The options of a setting, and the words among them that affect rays. Settings of points with equal words can
-// share a Transport.
+// The options of a setting, and the words among them that affect rays. Settings of points with equal words
+// can share a Transport.
 struct Setting {
   AnswerOptions options;
   std::string rays;
@@ -21,8 +21,8 @@ struct Setting {
 // Answers the points of a scene, or in ray mode its rays, with different settings.
 class Trials {
  public:
-  // points: perRecord numbers each. leave: ends the process; called if an answer is still unfinished .1 s after a
-  // signal. All arguments except `leave` must exist as long as this object.
+  // points: perRecord numbers each. leave: ends the process; called if an answer is still unfinished .1 s
+  // after a signal. All arguments except `leave` must exist as long as this object.
   Trials(const Scene& scene, std::span<const double> points, size_t perRecord, const StopSignals& signals,
          std::function<void()> leave)
       : scene_(scene), points_(points), perRecord_(perRecord), signals_(signals), leave_(std::move(leave)) {}
