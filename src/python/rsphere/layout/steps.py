@@ -27,6 +27,7 @@ AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
 SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
+DARKEST_TOLD = 3  # on the terminal, the most uneven ones; the page has all
 REMEDY_SECONDS = 3  # for what would meet a goal
 HARDLY_LIT = 0.02  # of what is wanted: less light than this from all candidates together means that a goal faces the wrong way
 
@@ -184,13 +185,14 @@ class Steps:
         room, self.points_text, self.darkest = self.rsphere.Scene(self.given.room), [], []
         self.points_text += [covered_text(room, s) for s in self.design.surfaces.values() if len(s.covered)]
         below = min(c.position[2] for c in self.candidates)
-        for scene, goal, planned, found in self.rows:
-            if goal.kind == "uniformity":
-                answer = found or planned
+        uneven = [(scene, goal, found or planned) for scene, goal, planned, found in self.rows if goal.kind == "uniformity"]
+        for scene, goal, answer in sorted(uneven, key=lambda row: row[2].value):
+            if answer.place is not None:
                 normal = self.design.surfaces[goal.target].normals[0]
                 self.darkest.append((scene.name, answer.place))
                 self.points_text.append(darkest_text(room, f"{scene.name} {goal.target}".strip(), answer.place, normal, answer.value, below))
-        for line in self.points_text:
+        covered = len(self.points_text) - len(self.darkest)
+        for line in self.points_text[: covered + DARKEST_TOLD]:
             print(f"{line}.")
 
     def scene_watts(self, levels):
