@@ -38,6 +38,7 @@ struct AnswerOptions {
   ColorOptions color;
   int64_t width = 0, height = 0;   // -x -y
   bool header = true;              // -h
+  bool namesColumns = false;       // -Sf
   std::string program;             // argv[0] without its folder; for the header, like `words`
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
   std::string picture;             // -Si  name of the pictures; empty: none

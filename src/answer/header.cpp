@@ -1,11 +1,13 @@
 #include "answer/header.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
 
 #include "answer/answer_writer.h"
+#include "answer/column_names.h"
 #include "base/version.h"
 #include "records/output_colors.h"
 #include "sphere/direction_bins.h"
@@ -119,6 +121,8 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   RecordLayout layout{counts ? componentCount(options) : 0};
   if (!options.contributors.empty())
     layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (options.namesColumns && counts)
+    layout.lines += fmt::format("COLUMNS= {}\n", fmt::join(columnNames(options), " "));
   if (options.sphere.accuracy > 0) layout.lines += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
   if (options.sphereMode && options.sphere.bins) {
     layout.lines += solidAngleLines(*options.sphere.bins);

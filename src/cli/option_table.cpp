@@ -477,6 +477,8 @@ constexpr OptionEntry kOptions[] = {
     {{"-Sr", "N", "number of the rotation and random numbers", Group::sphere, Custom{setRotation}, kCount},
      {.line = +[](const O& o) { return fmt::format("-Sr {:<9}\t\t\t", o.sphere.rotation); }}},
     {{"-Sc", "", "scene files may run commands|no commands in scene files", Group::sphere, of<&O::commands>}},
+    {{"-Sf", "", "names of the columns in the header|no names of columns", Group::sphere,
+      of<&O::namesColumns>}},
     // Options for examining how answers were obtained.
     {{"-Sv", "", "verify weights|weights not verified", Group::sphere, sphere<&SphereOptions::verify>},
      pointsOnly()},

@@ -2,81 +2,12 @@
 
 #include <array>
 
+#include "answer/column_names.h"
 #include "answer/header.h"
 #include "cli/option_table.h"
-#include "points/quantities.h"
 
 namespace rsphere {
 namespace {
-
-// The names of the -o letters of rays and directions in -defaults; rtrace has none for c. For letters of
-// points: points/quantities.h.
-struct LetterName {
-  char letter;
-  std::string_view name;
-};
-constexpr std::array kLetterNames = {
-    LetterName{'t', "trace"},
-    LetterName{'o', "origin"},
-    LetterName{'d', "direction"},
-    LetterName{'r', "reflect_contrib"},
-    LetterName{'R', "reflect_length"},
-    LetterName{'x', "unreflect_contrib"},
-    LetterName{'X', "unreflect_length"},
-    LetterName{'v', "value"},
-    LetterName{'e', "standard_error"},
-    LetterName{'V', "contribution"},
-    LetterName{'l', "length"},
-    LetterName{'L', "first_length"},
-    LetterName{'p', "point"},
-    LetterName{'n', "normal"},
-    LetterName{'N', "unperturbed_normal"},
-    LetterName{'s', "surface"},
-    LetterName{'w', "weight"},
-    LetterName{'W', "coefficient"},
-    LetterName{'m', "modifier"},
-    LetterName{'M', "material"},
-    LetterName{'~', "tilde"},
-    LetterName{'i', "record"},
-};
-
-// Different names with -Su.
-constexpr std::array kGlareLetterNames = {
-    LetterName{'o', "eye"},
-    LetterName{'d', "gaze"},
-    LetterName{'u', "UGR"},
-    LetterName{'v', "illuminance"},
-    LetterName{'b', "background"},
-    LetterName{'g', "DGP"},
-    LetterName{'U', "UGR_error"},
-    LetterName{'V', "illuminance_error"},
-    LetterName{'B', "background_error"},
-    LetterName{'G', "DGP_error"},
-    LetterName{'n', "glare_sources"},
-    LetterName{'t', "threshold"},
-};
-// Names for the list of glare sources (-Su -Sd).
-constexpr std::array kSourceLetterNames = {
-    LetterName{'o', "eye"},         LetterName{'l', "luminance"},         LetterName{'L', "luminance_error"},
-    LetterName{'w', "solid_angle"}, LetterName{'W', "solid_angle_error"}, LetterName{'p', "position_index"},
-};
-
-std::string_view nameIn(std::span<const LetterName> names, char letter) {
-  for (const LetterName& known : names)
-    if (known.letter == letter) return known.name;
-  return "";
-}
-
-std::string_view letterName(char letter, const Options& options) {
-  if (options.sphereMode && options.sphere.glare.wanted) {
-    const auto name = options.sphere.everyDirection ? nameIn(kSourceLetterNames, letter)
-                                                    : nameIn(kGlareLetterNames, letter);
-    if (!name.empty()) return name;
-  }
-  if (options.sphereMode && !options.sphere.everyDirection)
-    if (const PointQuantity* const quantity = pointQuantity(letter)) return quantity->name;
-  return nameIn(kLetterNames, letter);
-}
 
 // The remark after '#' in -defaults, which may depend on values.
 std::string remarkOf(const OptionEntry& entry, const Options& options) {
