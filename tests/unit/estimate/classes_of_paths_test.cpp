@@ -125,7 +125,7 @@ SphereSetting settingOf(const std::string& text, int bounces, double accuracy) {
   return SphereSetting(sceneOf(text), [&](RayOptions& o) {
     o.ambientBounces = bounces;
     o.ambientAccuracy = accuracy;
-    o.ambientDivisions = accuracy > 0 ? 128 : 1;
+    o.ambientDivisions = accuracy > 0 ? 64 : 1;
     o.sourceSubstructuring = .1;
   });
 }

@@ -83,10 +83,10 @@ TEST(Estimator, AgreesWithEqualWeights) {
   const Setting setting(room(12), 1);
   const V3d point(2.2, 3.4, 1.5);
   Sample equal, silhouettes;
-  for (uint64_t rotation = 0; rotation < 60; ++rotation)
+  for (uint64_t rotation = 0; rotation < 30; ++rotation)
     silhouettes.add(brightness(setting.at(point, setting.with(Weights::silhouettes, 512, rotation)).mean));
   for (uint64_t rotation = 0; rotation < 24; ++rotation)
-    equal.add(brightness(setting.at(point, setting.with(Weights::homogeneous, 20000, rotation)).mean));
+    equal.add(brightness(setting.at(point, setting.with(Weights::homogeneous, 10000, rotation)).mean));
   const double error = std::hypot(equal.standardError(), silhouettes.standardError());
   EXPECT_LT(std::abs(silhouettes.mean() - equal.mean()), 3 * error)
       << silhouettes.mean() << " +- " << silhouettes.standardError() << " and " << equal.mean() << " +- "
@@ -99,16 +99,16 @@ TEST(Estimator, ScattersFarLessThanEqualWeights) {
   const Setting setting(room(12, .1, .1));
   const V3d point(2.2, 3.4, 1.5);
   Sample reference;
-  for (uint64_t rotation = 100; rotation < 106; ++rotation)
+  for (uint64_t rotation = 100; rotation < 103; ++rotation)
     reference.add(brightness(setting.at(point, setting.with(Weights::silhouettes, 8192, rotation)).mean));
   Sample square, equalSquare;
   size_t most = 0;
-  for (uint64_t rotation = 0; rotation < 60; ++rotation) {
+  for (uint64_t rotation = 0; rotation < 30; ++rotation) {
     const PointAnswer a = setting.at(point, setting.with(Weights::silhouettes, 512, rotation));
     square.add(std::pow(brightness(a.mean) / reference.mean() - 1, 2));
     most = std::max(most, a.directions);
   }
-  for (uint64_t rotation = 0; rotation < 60; ++rotation) {
+  for (uint64_t rotation = 0; rotation < 30; ++rotation) {
     const SphereOptions o = setting.with(Weights::homogeneous, static_cast<int>(most), rotation);
     equalSquare.add(std::pow(brightness(setting.at(point, o).mean) / reference.mean() - 1, 2));
   }

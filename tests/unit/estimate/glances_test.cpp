@@ -84,9 +84,9 @@ Spread spreadOf(const Setting& setting, double density, int base, int rotations)
 TEST(Glances, HalveTheErrorBesideAGoalWithoutBias) {
   for (const int bounces : {0, 3}) {
     const Setting setting(deskBesideGoal(), bounces, true);
-    const Spread ours = spreadOf(setting, 1, 300, 60), equal = spreadOf(setting, 0, 400, 60);
+    const Spread ours = spreadOf(setting, 1, 300, 30), equal = spreadOf(setting, 0, 400, 30);
     EXPECT_LE(ours.directions, equal.directions);
-    EXPECT_LT(2 * ours.relative(60), equal.relative(60)) << bounces;
+    EXPECT_LT(2 * ours.relative(30), equal.relative(30)) << bounces;
     const double error = std::hypot(ours.mean.standardError(), equal.mean.standardError());
     EXPECT_LT(std::abs(ours.mean.mean() - equal.mean.mean()), 3 * error) << bounces;
     EXPECT_GT(std::abs(1.01 * ours.mean.mean() - equal.mean.mean()), 3 * error)

@@ -216,7 +216,7 @@ TEST(PartsOfContributors, OfInterpolatedLightAddUp) {
 std::vector<Sample> partsOfRays(const std::string& text, const Names& goals, size_t contributors,
                                 double accuracy) {
   std::vector<Sample> parts(contributors);
-  for (uint64_t run = 1; run <= 6; ++run) {
+  for (uint64_t run = 1; run <= 4; ++run) {
     const auto rays = ofRays(text, goals, true, accuracy, run);
     for (size_t i = 0; i < contributors; ++i) {
       double sum = 0;

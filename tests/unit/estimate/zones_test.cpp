@@ -139,7 +139,7 @@ TEST(Zones, HavePartsOfContributors) {
 // The root of the mean over many repeats, of the squares of deviations over those that are stated.
 double trueOverStated(const Answers& answers, int zones = kZones,
                       const std::shared_ptr<const DirectionBins>& bins = {}) {
-  constexpr int kRepeats = 12;
+  constexpr int kRepeats = 8;
   std::vector<PointAnswer> all;
   for (uint64_t r = 0; r < kRepeats; ++r) all.push_back(answers.at(r + 1, zones, 512, bins));
   double squares = 0, stated = 0;
