@@ -39,7 +39,7 @@ class Annual(unittest.TestCase):
             before = os.getcwd()
             os.chdir(folder)
             try:
-                run = run_here([built("rsphere-annual"), "--weather", name, "--coefficients", "co.f"])
+                run = run_here([built("rsphere-annual"), name, "co.f"])  # --weather name --coefficients co.f
             finally:
                 os.chdir(before)
         return run.returncode, run.stdout, run.stderr
@@ -138,7 +138,7 @@ class Annual(unittest.TestCase):
                         self.assertNotIn("nan", out)
 
     def test_command_lines(self):
-        for words, said in (([], "the following arguments are required: --weather"), (["--weather", "w"], "needs scene files, or --coeff"),
+        for words, said in (([], "needs --weather FILE"), (["--weather", "w"], "needs scene files, or --coeff"),
                             (["--weather", "w", "r.rad", "-d", "x"], "argument -d/--divisions: invalid int"),
                             (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
                             (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"),

@@ -22,6 +22,7 @@ LATE = 0.05  # of the direct light may be at hours when the sun is down: the fir
 MOST_ESTIMATES = 512
 
 TEXT = """\\
+Coefficients may also follow the weather alone: rsphere-annual town.epw sky.mtx.
 The scene has no sky; the weather (.epw or .wea) brings it. Verdicts are printed with their sources. They, what each sensor has,
 plans and a page for the browser (page.html) go into the folder of -o. rsphere-annual(1) describes the method."""
 
@@ -29,7 +30,7 @@ plans and a page for the browser (page.html) go into the folder of -o. rsphere-a
 def arguments():
     parser = Options("scene...", TEXT)
     parser.add_argument("scene", nargs="*")
-    parser.add_argument("--weather", required=True, metavar="FILE", help="the hours of a year: .epw or .wea")
+    parser.add_argument("--weather", metavar="FILE", help="the hours of a year: .epw or .wea")
     parser.add_argument("--sensors", metavar="FILE", help="x y z dx dy dz, one a line; otherwise a grid")
     parser.add_argument("--on", action="append", metavar="NAME", help="polygon or modifier with a grid of sensors: floor")
     parser.add_argument("--height", type=float, default=0.85, metavar="H", help="of the grid above it")
@@ -50,6 +51,10 @@ def arguments():
         value = getattr(given, name)
         if value is not None and not least <= value <= most:
             raise Fault(f"--{name} must be from {least:g} to {most:g}")
+    if not given.weather and len(given.scene) == 2 and given.scene[0].lower().endswith((".epw", ".wea")):
+        (given.weather, given.coefficients), given.scene = given.scene, []
+    if not given.weather:
+        raise Fault("needs --weather FILE, the hours of a year: .epw or .wea")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     if given.on and given.sensors:
@@ -138,6 +143,8 @@ def main():
         year, dark_sun = light_of_coefficients(coefficients, factor, weather)
         check_weather(given.weather, weather, dark_sun)
         notes.append("The sun is spread over patches of the sky: there is no ASE, no shade is lowered, and errors are not known.")
+        light = year.lux.mean(axis=0)[:, year.occupied()].sum(axis=1).mean()
+        notes.append(f"Light from {FROM} to {UNTIL} h: {light / 1e6:.3f} Mlx h, mean of the sensors.")
         sensors, planes = np.zeros((len(coefficients), 0)), []
     else:
         year, sensors, planes = year_of_scene(given, weather, notes)
