@@ -155,7 +155,7 @@ class Tables(unittest.TestCase):
             (self.path("TILT=NONE\n1 x\n", "bad.ies"), (), r'bad\.ies:2: the lumens of a lamp must be a number, not "x"'),
             (os.path.join(self.folder.name, "none.ldt"), (), r"none\.ldt: cannot be read"),
             (self.folder.name + "/", (), "cannot be read"),
-            (PANEL, ("--spacing", "2"), "invalid choice: 2"),
+            (PANEL, ("--spacing", "2"), "invalid choice: '?2'?"),
         ):
             with self.subTest(words=words):
                 run = self.run_on(file, *options)

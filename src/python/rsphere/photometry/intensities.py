@@ -60,7 +60,8 @@ class Photometry:
         if len(self.planes) > 1:
             mean = np.sum((self.candela[1:] + self.candela[:-1]) / 2 * np.diff(self.planes)[:, None], axis=0) / 360
         curve = np.interp(np.degrees(fine), self.gammas, mean, left=0, right=0)
-        return 2 * np.pi * np.trapz(curve * np.sin(fine), fine)
+        weighed = curve * np.sin(fine)
+        return np.pi * ((weighed[1:] + weighed[:-1]) * np.diff(fine)).sum()
 
     def tilt_factor(self, angle):
         """The factor on the light of a luminaire whose main direction is turned by an angle (degrees) from -z."""
