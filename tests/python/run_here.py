@@ -1,14 +1,30 @@
-"""Commands of the package run in the process of a test: to load NumPy and SciPy takes longer than to find a fault."""
+"""What tests of the package share. Commands run in the process of a test: to load NumPy and SciPy takes longer than to find a fault."""
 import contextlib
 import io
 import os
 import runpy
 import subprocess
 import sys
+import tempfile
+import unittest
 import unittest.mock
 
 
 PROGRAMS = os.environ["PROGRAMS"]
+
+
+class InAFolder(unittest.TestCase):
+    """Tests that write files, each test in a folder of its own."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, data, name="lamp.ies"):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "wb") as stream:
+            stream.write(data if isinstance(data, bytes) else data.encode("latin-1"))
+        return path
 
 
 def built(name):

@@ -4,7 +4,6 @@ import pty
 import re
 import signal
 import subprocess
-import tempfile
 import unittest
 import xml.dom.minidom
 
@@ -17,7 +16,7 @@ from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdi
 from rsphere.annual.weather import Weather
 from rsphere.fault import Fault
 from rsphere.layout.room import read_polygons
-from run_here import built
+from run_here import InAFolder, built
 
 PLACE = [47.0, 15.0, 15.0]
 BLACK = "void plastic black 0 0 5 0 0 0 0 0\n"
@@ -174,16 +173,9 @@ class Blinds(unittest.TestCase):
         self.assertEqual(self.states(sunny, [(5, 1)] * 8, 8), [UP, UP, UP, *[LOWERED] * 5], "those with most sun first, until 2% are left")
 
 
-class Closed(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class Closed(InAFolder):
     def scene(self, text):
-        path = os.path.join(self.folder.name, "room.rad")
-        with open(path, "w", encoding="ascii") as stream:
-            stream.write(text)
-        return [path]
+        return [self.file(text, "room.rad")]
 
     def light(self, text, sensors, hours, groups=(), estimates=2, settings=SETTINGS):
         sensors = np.array(sensors, float)

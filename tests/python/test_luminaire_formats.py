@@ -1,7 +1,6 @@
 """GLDF, TM-33 and radiant files in rsphere.photometry: equal light, and faults in one line."""
 import io
 import os
-import tempfile
 import unittest
 import zipfile
 
@@ -11,7 +10,7 @@ import rsphere
 from rsphere.fault import Fault
 from rsphere.photometry import UgrTable, read_luminaire
 from rsphere.photometry.radiant import unit_in
-from run_here import built, run_here
+from run_here import InAFolder, built, run_here
 from test_luminaires import BOX, PANEL, eulumdat
 
 PRODUCT = """<?xml version="1.0" encoding="UTF-8"?>
@@ -63,17 +62,7 @@ def intensities(values):
 DATA = intensities({0: (180, 100, 0), 90: (180, 120, 20)})
 
 
-class Formats(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def file(self, data, name):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "wb") as stream:
-            stream.write(data if isinstance(data, bytes) else data.encode("utf-8"))
-        return path
-
+class Formats(InAFolder):
     def gldf(self, product=PRODUCT, members=None, name="lamp.gldf"):
         made = io.BytesIO()
         with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:

@@ -2,7 +2,6 @@
 import os
 import re
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 import rsphere
 from rsphere.fault import Fault
 from rsphere.photometry import read_luminaire
-from run_here import built
+from run_here import InAFolder, built
 
 CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
 PANEL = os.path.join(CASES, "panel.ies")
@@ -54,17 +53,7 @@ def eulumdat(**changes):
     return "\r\n".join(lines) + "\r\n"
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def file(self, text, name="lamp.ies"):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "wb") as stream:
-            stream.write(text if isinstance(text, bytes) else text.encode("latin-1"))
-        return path
-
+class Files(InAFolder):
     def refused(self, text, line, words, name="lamp.ies"):
         path = self.file(text, name)
         with self.assertRaises(Fault) as caught:

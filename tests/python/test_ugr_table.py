@@ -1,6 +1,5 @@
 """UGR tables of luminaires (rsphere.photometry): closed forms, equal luminaires in other files, and a room that is traced."""
 import os
-import tempfile
 import unittest
 import xml.dom.minidom
 
@@ -10,7 +9,7 @@ import rsphere
 from rsphere.photometry import read_luminaire
 from rsphere.photometry.lamp_rad import pattern_text, rotation, surfaces_text, turning_words, write_data
 from rsphere.photometry.ugr_table import REFLECTANCES, ROOMS, Direct, UgrTable, form_factor, glare_sum, indirect, places
-from run_here import built, run_here
+from run_here import InAFolder, built, run_here
 
 PANEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases/panel.ies")
 
@@ -36,19 +35,9 @@ GAMMAS = np.radians(np.linspace(0, 90, 91))
 LAMBERT = 1000 * np.cos(GAMMAS)
 
 
-class Tables(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, text, name="lamp.ies"):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "w", encoding="ascii") as stream:
-            stream.write(text)
-        return path
-
+class Tables(InAFolder):
     def lamp(self, text, name="lamp.ies"):
-        return read_luminaire(self.path(text, name))
+        return read_luminaire(self.file(text, name))
 
     def test_exchange(self):
         """CIE 190 prints these factors of rooms of 4H x 8H: for light that meets the ceiling, the walls, and the plane of the eye."""
@@ -111,7 +100,7 @@ class Tables(unittest.TestCase):
 
     def test_no_light_towards_the_eye(self):
         """A narrow spot: no logarithm of 0, and a row of <10."""
-        table = self.run_on(self.path(ies([1000, 900, 0, 0, 0, 0, 0, 0, 0, 0], "-.1 -.1 0")), "--csv")
+        table = self.run_on(self.file(ies([1000, 900, 0, 0, 0, 0, 0, 0, 0, 0], "-.1 -.1 0")), "--csv")
         self.assertEqual(table.stdout.splitlines()[4], ",".join(["<10"] * 10))
 
     def test_traced(self):
@@ -151,8 +140,8 @@ class Tables(unittest.TestCase):
 
     def test_faults(self):
         for file, options, words in (
-            (self.path(ies(LAMBERT, "0 0 0"), "point.ies"), (), r"point\.ies: has no luminous area"),
-            (self.path("TILT=NONE\n1 x\n", "bad.ies"), (), r'bad\.ies:2: the lumens of a lamp must be a number, not "x"'),
+            (self.file(ies(LAMBERT, "0 0 0"), "point.ies"), (), r"point\.ies: has no luminous area"),
+            (self.file("TILT=NONE\n1 x\n", "bad.ies"), (), r'bad\.ies:2: the lumens of a lamp must be a number, not "x"'),
             (os.path.join(self.folder.name, "none.ldt"), (), r"none\.ldt: cannot be read"),
             (self.folder.name + "/", (), "cannot be read"),
             (PANEL, ("--spacing", "2"), "invalid choice: '?2'?"),

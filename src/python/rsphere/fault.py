@@ -43,6 +43,19 @@ def whole(word, file, line, what, least, most):
     return int(value)
 
 
+class Numbers:
+    """Reads the numbers of a file in turn. A subclass has text(what): the next one's text, whose line is then self.line of self.file."""
+
+    def number(self, what, least=-1e9, most=1e9):
+        return number(self.text(what), self.file, self.line, what, least, most)
+
+    def whole(self, what, least, most):
+        return whole(self.text(what), self.file, self.line, what, least, most)
+
+    def numbers(self, count, what, least, most):
+        return [self.number(f"{what} {i + 1} of {count}", least, most) for i in range(count)]
+
+
 def lines_of(file, encoding="latin-1", errors="strict"):
     """The lines of a text file without their ends, LF or CR LF, the mark of UTF-8 before them, and DOS's Ctrl-Z behind them."""
     try:

@@ -3,14 +3,14 @@ import os
 
 import numpy as np
 
-from ..fault import fault, lines_of, number, whole
+from ..fault import Numbers, fault, lines_of
 from .intensities import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_PLANES = 721
 MOST_LAMPS = 20
 
 
-class Lines:
+class Lines(Numbers):
     """The lines of a file, one value on each."""
 
     def __init__(self, file):
@@ -21,15 +21,6 @@ class Lines:
             raise fault(self.file, len(self.lines), f"the file ends before {what}")
         self.line += 1
         return self.lines[self.line - 1].strip()
-
-    def number(self, what, least=-1e9, most=1e9):
-        return number(self.text(what), self.file, self.line, what, least, most)
-
-    def whole(self, what, least, most):
-        return whole(self.text(what), self.file, self.line, what, least, most)
-
-    def numbers(self, count, what, least, most):
-        return [self.number(f"{what} {i + 1} of {count}", least, most) for i in range(count)]
 
     def end(self):
         for index in range(self.line, len(self.lines)):

@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from ..fault import Fault, fault, lines_of, number, whole
+from ..fault import Fault, Numbers, fault, lines_of
 from .intensities import Photometry, checked_angles, checked_candela, unfolded
 from .radiant import UNITS, unit_in
 
@@ -12,7 +12,7 @@ FOOT = 0.3048
 TOLERANCE = 1e-3  # degrees, and metres where dimensions are compared
 
 
-class Words:
+class Words(Numbers):
     """The numbers behind the line TILT=, with the lines that they are on."""
 
     def __init__(self, file, lines, first):
@@ -24,20 +24,11 @@ class Words:
             for word in lines[index].split():
                 yield index + 1, word[:-1] if len(word) > 1 and word.endswith(",") else word
 
-    def word(self, what):
+    def text(self, what):
         self.line, word = next(self.words, (self.last, None))
         if word is None:
             raise fault(self.file, self.line, f"the file ends before {what}")
         return word
-
-    def number(self, what, least=-1e9, most=1e9):
-        return number(self.word(what), self.file, self.line, what, least, most)
-
-    def whole(self, what, least, most):
-        return whole(self.word(what), self.file, self.line, what, least, most)
-
-    def numbers(self, count, what, least, most):
-        return [self.number(f"{what} {i + 1} of {count}", least, most) for i in range(count)]
 
     def end(self):
         for line, word in self.words:
