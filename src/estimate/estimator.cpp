@@ -69,7 +69,7 @@ struct Half {
   KernelVariances ofKernels;
   std::vector<SharedError> sharedByKernel;
 
-  explicit Half(const Kernels& kernels) : moments(kernels.zones), ofKernels(kernels) {}
+  explicit Half(const Kernels& kernels) : moments(kernels.zones.get()), ofKernels(kernels) {}
 
   void add(const SampledSet& set, const Moments& ofSet) {
     moments.add(ofSet, 1);
@@ -153,7 +153,7 @@ class KernelErrors {
     for (size_t i = 0; i < base_.kernels.zoneCount(); ++i) {
       const Color& border = sums_.moments.borders[i];
       errors.push_back(
-          of(i, sums_.moments.ofZones[i], base_.zones->solidAngle(i), {border, brightness(border)}));
+          of(i, sums_.moments.ofZones[i], base_.kernels.zones->solidAngle(i), {border, brightness(border)}));
     }
     return errors;
   }

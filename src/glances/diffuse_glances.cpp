@@ -197,7 +197,6 @@ DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surf
       lights_(prepared, surfaces_, poolsFor(options), pathsFor(options, bool(tracers)),
               mixBits(options.rotation), tracers),
       glances_(rotatedDirections(baseDirections(glancesFor(options)), options.rotation)),
-      zones_(base.zones),
       kernels_(base.kernels),
       joins_(tuning::DiffuseGlances::kJoinsPerDirection * options.baseDirections) {
   if (!base.neighbours) return;

@@ -38,7 +38,7 @@ class DiffuseGlances {
   // The light found by the glances and joins of one set at its point.
   struct Found {
     explicit Found(const Kernels& kernels = {}, const std::optional<V3d>& gaze = {})
-        : moments(kernels.zones, gaze), ofKernels(kernels) {}
+        : moments(kernels.zones.get(), gaze), ofKernels(kernels) {}
     Moments moments;     // of the light
     Variance variance;   // of moments.total, due to choosing glances and joins; 0 unless errors are requested
     SharedError shared;  // of moments.total, due to the light vertices; empty unless errors are requested
@@ -87,10 +87,9 @@ class DiffuseGlances {
   PlainSurfaces surfaces_;
   LightPools lights_;
   std::vector<V3d> glances_;
-  std::shared_ptr<const DirectionBins> zones_;  // null: light is not divided
-  Kernels kernels_;                             // these zones, and the quantities that have errors
-  std::optional<Neighbours> neighbours_;        // empty unless standard errors are requested
-  double joins_;                                // expected number of joins at a point
+  Kernels kernels_;
+  std::optional<Neighbours> neighbours_;  // empty unless standard errors are requested
+  double joins_;                          // expected number of joins at a point
 };
 
 // The surfaces of a scene with the openings of tracing.aims as portals. Empty if there are no openings, if

@@ -10,11 +10,9 @@ namespace rsphere {
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors) {
   const auto count = static_cast<size_t>(options.baseDirections);
   BaseSet base{rotatedDirections(baseDirections(count), options.rotation), {}, std::nullopt, sampling};
-  base.zones = options.bins;
-  if (!base.zones && options.zones > 0)
-    base.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
-  base.kernels = {base.zones.get(), standardErrors ? options.quantityErrors : Kernels::Some(),
-                  options.facing()};
+  base.kernels = {options.bins, standardErrors ? options.quantityErrors : Kernels::Some(), options.facing()};
+  if (!options.bins && options.zones > 0)
+    base.kernels.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
   const bool equal = options.weights == Weights::homogeneous;
   if (equal) base.solidAngles.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
   if (equal && !standardErrors && !options.verify) return base;

@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,12 +12,11 @@ namespace rsphere {
 
 // Evenly spread directions, shared by all points. Every strategy (-Sw) uses them.
 struct BaseSet {
-  std::vector<V3d> directions;                   // unit, world
-  std::vector<double> solidAngles;               // solid angles that the directions represent, sr
-  std::optional<Neighbours> neighbours;          // empty unless standard errors are requested
-  const SpectralSampling* sampling;              // the run's: RayOptions::sampling
-  std::shared_ptr<const DirectionBins> zones{};  // zones of -Sz or bins; null: not requested
-  Kernels kernels{};                             // these, and the quantities that have standard errors
+  std::vector<V3d> directions;           // unit, world
+  std::vector<double> solidAngles;       // solid angles that the directions represent, sr
+  std::optional<Neighbours> neighbours;  // empty unless standard errors are requested
+  const SpectralSampling* sampling;      // the run's: RayOptions::sampling
+  Kernels kernels{};                     // zones, and the quantities that have standard errors
 };
 
 // Makes -Sn directions, rotated by -Sr. With -Sw h their solid angles are equal, otherwise those of their

@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 
 #include "sphere/direction_bins.h"
@@ -28,9 +29,9 @@ struct Kernels {
 
   using Some = std::bitset<kQuantities>;
 
-  const DirectionBins* zones = nullptr;  // null: there are none
-  Some quantities;                       // those with standard errors
-  V3d facing{1, 0, 0};                   // -So  unit
+  std::shared_ptr<const DirectionBins> zones{};  // of -Sz, or bins; null: not requested
+  Some quantities{};                             // those with standard errors
+  V3d facing{1, 0, 0};                           // -So  unit
 
   size_t zoneCount() const { return zones ? zones->count() : 0; }
   // The zones come before the quantities, among which those without errors have numbers, too.

@@ -65,11 +65,14 @@ constexpr PointQuantity kQuantities[] = {
      'z'},
     {'e', "standard_error", Form::errors, 1, "", "",
      [](A a, O, Add add) { add(a.standardError.color * kPi, a.brightnessError * kPi); }, 'E'},
-    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::cylindrical>, 'C'},
-    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::semicylindrical>, 'S'},
-    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::hemispherical>, 'h'},
-    {'e', "standard_error", Form::errors, 6, "", "", addSome<Kernels::faces, 6>, 'H'},
-    {'e', "standard_error", Form::vectorErrors, 3, "", "", nullptr, 'u'},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::cylindrical>, 'C',
+     Kernels::cylindrical},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::semicylindrical>, 'S',
+     Kernels::semicylindrical},
+    {'e', "standard_error", Form::errors, 1, "", "", addSome<Kernels::hemispherical>, 'h',
+     Kernels::hemispherical},
+    {'e', "standard_error", Form::errors, 6, "", "", addSome<Kernels::faces, 6>, 'H', Kernels::faces},
+    {'e', "standard_error", Form::vectorErrors, 3, "", "", nullptr, 'u', Kernels::vector},
 };
 
 // The error of the quantity with this letter; null: it has none.
@@ -109,14 +112,9 @@ bool haveErrors(std::string_view letters) {
 
 Kernels::Some ownErrors(std::string_view letters) {
   Kernels::Some some;
-  for (const PointQuantity* const q : pointQuantities(letters)) {
-    if (!q || !q->isError()) continue;
-    if (q->of == 'C') some.set(Kernels::cylindrical);
-    if (q->of == 'S') some.set(Kernels::semicylindrical);
-    if (q->of == 'h') some.set(Kernels::hemispherical);
-    for (size_t i = 0; q->of == 'H' && i < 6; ++i) some.set(Kernels::faces + i);
-    for (size_t i = 0; q->of == 'u' && i < 3; ++i) some.set(Kernels::vector + i);
-  }
+  for (const PointQuantity* const q : pointQuantities(letters))
+    if (q && q->kernel < Kernels::kQuantities)
+      for (int i = 0; i < q->values; ++i) some.set(q->kernel + static_cast<size_t>(i));
   return some;
 }
 

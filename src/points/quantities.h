@@ -30,8 +30,9 @@ struct PointQuantity {
   std::string_view definition, unit;  // for the manual; lines of the definition have at most 51 characters
   // Calls `add` for each color or error.
   void (*each)(const PointAnswer& answer, const SphereOptions& options, const Add& add) = nullptr;
-  char of =
-      0;  // for a standard error, the letter of its quantity; other than v, it has no line in the manual
+  char of = 0;  // for a standard error, the letter of its quantity; other than v, not in the manual
+  // For a standard error that does not follow from that of the mean or of zones: the first of its Kernels.
+  size_t kernel = Kernels::kQuantities;
 
   bool isError() const { return form == Form::errors || form == Form::vectorErrors; }
 

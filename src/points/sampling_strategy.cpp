@@ -25,7 +25,7 @@ void SampledSet::setVariance(const Neighbours& neighbours, const BaseSet& base) 
 }
 
 Moments SampledSet::moments(const BaseSet& base, const std::optional<V3d>& gaze) const {
-  Moments moments(base.zones.get(), gaze);
+  Moments moments(base.kernels.zones.get(), gaze);
   for (const DirectionSample& s : samples)
     moments.add(s.direction, irradianceFrom(s.value, s.solidAngle), base.sampling, s.solidAngle,
                 !s.toSource && s.region == 0);
