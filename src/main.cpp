@@ -65,11 +65,7 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
   end.leave = [&](const std::exception_ptr& fault) {
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };
-  end.ended = [&] {
-    for (const std::string& text : summary.warnings(options, transport.prepared())) warn(text);
-    if (const std::string text = summary.report(options); !text.empty() && isatty(messages.descriptor()) != 0)
-      messages.report(text);
-  };
+  end.ended = [&] { summary.tell(messages, options, transport.prepared()); };
   const auto checkStop = [&] { signals.check(); };
   runRecords(reader, writer, options, messages, &signals,
              !options.sphereMode ? answerRays(transport, options, answers, warn, summary, checkStop)

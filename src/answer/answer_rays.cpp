@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "estimate/ray_estimator.h"
 #include "process/threads.h"
 #include "rays/ray_report.h"
 #include "scene/modifier_names.h"
@@ -20,28 +19,16 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
   return tracers;
 }
 
-namespace {
+EstimatedRays::EstimatedRays(const Transport& transport, const AnswerOptions& options,
+                             const std::function<void()>& checkStop)
+    : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}), checkStop_(checkStop) {
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers_.push_back(estimator_.tracers());
+}
 
-// Answers rays by independent sets of rays, with their standard errors.
-class EstimatedRays {
- public:
-  EstimatedRays(const Transport& transport, const AnswerOptions& options,
-                const std::function<void()>& checkStop)
-      : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}),
-        checkStop_(checkStop) {
-    for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers_.push_back(estimator_.tracers());
-  }
-  RayEstimator::Estimate estimate(unsigned worker, const InputRay& in, double farthest, uint64_t seed) {
-    return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed, {}, checkStop_);
-  }
-
- private:
-  RayEstimator estimator_;
-  std::function<void()> checkStop_;
-  std::vector<std::vector<PathTracer>> tracers_;  // by thread
-};
-
-}  // namespace
+RayEstimator::Estimate EstimatedRays::estimate(unsigned worker, const InputRay& in, double farthest,
+                                               uint64_t seed) {
+  return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed, {}, checkStop_);
+}
 
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                         const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop) {

@@ -15,45 +15,6 @@ constexpr double kSensorHeight = 1.1e-4;
 
 }  // namespace
 
-int componentCount(const AnswerOptions& options) {
-  if (options.sphereMode && options.sphere.glare.wanted) {
-    int count = 0;
-    for (const char letter : options.outputs) count += letter == 'o' || letter == 'd' ? 3 : 1;
-    return count;
-  }
-  const int parts = std::max<int>(1, static_cast<int>(options.contributors.size()));
-  const int coefficient = OutputColors(options.color).count(), color = coefficient * parts;
-  int count = 0;
-  if (options.sphereMode && !options.sphere.everyDirection) {
-    using Form = PointQuantity::Form;
-    for (const PointQuantity* const quantity : pointQuantities(options.outputs)) {
-      const Form form = quantity->form;
-      count += (quantity->values == PointQuantity::kOfZones ? options.sphere.zones : quantity->values) *
-               (form == Form::colors || form == Form::errors         ? color
-                : form == Form::vector || form == Form::vectorErrors ? parts
-                                                                     : 1);
-    }
-    return count;
-  }
-  for (const char letter : options.outputs) switch (letter) {
-      case 'v':
-      case 'e':
-      case 'V':
-      case 'r':
-      case 'x': count += color; break;
-      case 'W': count += coefficient; break;
-      case 'o':
-      case 'd':
-      case 'p':
-      case 'n':
-      case 'N': count += 3; break;
-      case 'c': count += 2; break;
-      case '~': break;
-      default: count += 1; break;
-    }
-  return count;
-}
-
 // Calls write() for the color or, if there are contributors, for the part due to each.
 template <class Write>
 void AnswerWriter::eachPart(const Color& color, const Write& write) const {

@@ -12,10 +12,6 @@
 
 namespace rsphere {
 
-// The number of values and names in a record with the given -o letters, for NCOMP= of the header. As in
-// rtrace, '~' adds none.
-int componentCount(const AnswerOptions& options);
-
 // Appends records to a string of bytes: the quantities of the -o letters, in this order, in the output
 // format. With contributors (-Sp), the letters v e E C S h H u z Z (in ray mode v V r x) write the part due
 // to each contributor in turn. REQUIRES: the options come from parseOptions() and exist as long as the

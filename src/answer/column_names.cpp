@@ -90,6 +90,7 @@ Suffixes ofColors(const ColorOptions& color) {
 
 // The suffixes of a ray's or a direction's letter.
 Suffixes suffixesOf(char letter, const AnswerOptions& options) {
+  if (letter == '~') return {};
   const bool glare = options.sphereMode && options.sphere.glare.wanted;
   if (std::string_view(glare ? "od" : "odpnN").find(letter) != std::string_view::npos) return kAxes;
   if (letter == 'c' && !glare) return {"_u", "_v"};
@@ -110,19 +111,20 @@ std::string_view letterName(char letter, const AnswerOptions& options) {
   return nameIn(kLetterNames, letter);
 }
 
-std::vector<std::string> columnNames(const AnswerOptions& options) {
-  std::vector<std::string> names;
+std::vector<std::vector<std::string>> columnNames(const AnswerOptions& options) {
+  std::vector<std::vector<std::string>> names;
   const auto add = [&](std::string_view name, const Suffixes& first, const Suffixes& second, bool ofParts) {
     const size_t parts = ofParts ? options.contributors.size() : 0;
+    names.emplace_back();
     for (size_t part = 0; part < std::max<size_t>(1, parts); ++part)
       for (const std::string& a : first)
         for (const std::string& b : second)
-          names.push_back(fmt::format("{}{}{}{}", name, a, b, parts > 0 ? fmt::format(".{}", part + 1) : ""));
+          names.back().push_back(
+              fmt::format("{}{}{}{}", name, a, b, parts > 0 ? fmt::format(".{}", part + 1) : ""));
   };
   const bool points = options.sphereMode && !options.sphere.everyDirection && !options.sphere.glare.wanted;
   if (!points) {
     for (const char letter : options.outputs) {
-      if (letter == '~') continue;
       const std::string_view name = letterName(letter, options);
       const bool ofParts = std::string_view("veVrx").find(letter) != std::string_view::npos;
       add(name.empty() ? "local" : name, kSingle, suffixesOf(letter, options), ofParts);
@@ -132,9 +134,8 @@ std::vector<std::string> columnNames(const AnswerOptions& options) {
   for (const PointQuantity* const quantity : pointQuantities(options.outputs)) {
     using Form = PointQuantity::Form;
     const Form form = quantity->form;
-    const bool error = quantity->isError();
-    const std::string name =
-        error ? fmt::format("{}_error", pointQuantity(quantity->of)->name) : std::string(quantity->name);
+    const std::string name = quantity->isError() ? fmt::format("{}_error", pointQuantity(quantity->of)->name)
+                                                 : std::string(quantity->name);
     if (form == Form::colors || form == Form::errors)
       add(name,
           quantity->values == PointQuantity::kOfZones ? numbered(options.sphere.zones)
@@ -145,6 +146,12 @@ std::vector<std::string> columnNames(const AnswerOptions& options) {
       add(name, kSingle, form == Form::count ? kSingle : kAxes, form != Form::place && form != Form::count);
   }
   return names;
+}
+
+int componentCount(const AnswerOptions& options) {
+  size_t count = 0;
+  for (const auto& ofLetter : columnNames(options)) count += ofLetter.size();
+  return static_cast<int>(count);
 }
 
 }  // namespace rsphere

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "answer/answer_writer.h"
 #include "answer/column_names.h"
 #include "base/version.h"
 #include "records/output_colors.h"
@@ -100,6 +99,7 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
     if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));
     if (layout.components > 0) text += fmt::format("NCOMP={}\n", layout.components);
     text += OutputColors(options.color).headerLines();
+    if (options.sphere.accuracy > 0) text += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
     text += layout.lines;
     size_t alignment = 1;
     if (options.out == NumberFormat::float32) alignment = sizeof(float);
@@ -121,9 +121,11 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   RecordLayout layout{counts ? componentCount(options) : 0};
   if (!options.contributors.empty())
     layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  std::vector<std::string> columns;
   if (options.namesColumns && counts)
-    layout.lines += fmt::format("COLUMNS= {}\n", fmt::join(columnNames(options), " "));
-  if (options.sphere.accuracy > 0) layout.lines += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
+    for (const auto& ofLetter : columnNames(options))
+      columns.insert(columns.end(), ofLetter.begin(), ofLetter.end());
+  if (!columns.empty()) layout.lines += fmt::format("COLUMNS= {}\n", fmt::join(columns, " "));
   if (options.sphereMode && options.sphere.bins) {
     layout.lines += solidAngleLines(*options.sphere.bins);
   } else if (options.sphereMode && options.sphere.zones > 0) {

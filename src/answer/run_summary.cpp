@@ -1,6 +1,7 @@
 #include "answer/run_summary.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +95,12 @@ std::string RunSummary::accuracyText(const AnswerOptions& options) const {
                             options.sphereMode ? "directions (-Sx)" : "rays");
 }
 
-std::string RunSummary::report(const AnswerOptions& options) const {
+void RunSummary::tell(const Messages& messages, const AnswerOptions& options,
+                      const PreparedScene& prepared) const {
+  for (const std::string& text : warnings(options, prepared)) messages.warning(text);
   const std::lock_guard lock(mutex_);
-  return options.sphere.accuracy > 0 && missed_.records == 0 ? accuracyText(options) : "";
+  if (options.sphere.accuracy > 0 && missed_.records == 0 && isatty(messages.descriptor()) != 0)
+    messages.report(accuracyText(options));
 }
 
 std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,

@@ -6,6 +6,7 @@
 
 #include "answer/answer_options.h"
 #include "answer/batch.h"
+#include "answer/messages.h"
 #include "estimate/ray_estimator.h"
 #include "points/glare_answer.h"
 #include "points/point_answer.h"
@@ -35,9 +36,9 @@ class RunSummary {
   //   "-Sa: 37 of 40 sensors are within 1%; the largest error is 1.8% (record 12): 3.2 times the rays
   //   would do"
   std::vector<std::string> warnings(const AnswerOptions& options, const PreparedScene& prepared) const;
-  // If all records are within the accuracy of -Sa: "-Sa: 40 of 40 sensors are within 1%; the largest error is
-  // 0.93% (record 12)"; otherwise empty.
-  std::string report(const AnswerOptions& options) const;
+  // Writes these warnings. In a terminal it also reports that all records are within the accuracy of -Sa:
+  //   "-Sa: 40 of 40 sensors are within 1%; the largest error is 0.93% (record 12)"
+  void tell(const Messages& messages, const AnswerOptions& options, const PreparedScene& prepared) const;
 
  private:
   // Records to warn about, and the worst of them; if several are equally bad, the first.

@@ -18,6 +18,7 @@
 #include "answer/answer_points.h"
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
+#include "answer/column_names.h"
 #include "answer/load_scene.h"
 #include "api/command_line.h"
 #include "api/ray_contributions.h"
@@ -385,12 +386,9 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
   const bool points = options.sphereMode && !options.sphere.glare.wanted;
   const auto quantities =
       points ? pointQuantities(options.outputs) : std::vector<const PointQuantity*>(options.outputs.size());
-  rsphere::Options before = options;  // those of the letters so far
-  before.outputs.clear();
+  const auto names = columnNames(options);
   for (size_t i = 0; i < options.outputs.size(); ++i) {
     const char letter = options.outputs[i];
-    const int columnsBefore = componentCount(before);
-    before.outputs += letter;
     const auto known = std::find_if(all.begin(), all.end(), [&](const Column& c) {
       return c.letter == letter && (!quantities[i] || c.of == quantities[i]->of);
     });
@@ -403,7 +401,7 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
       known->names->resize(records);
       continue;
     }
-    known->quantity->columns = static_cast<size_t>(componentCount(before) - columnsBefore);
+    known->quantity->columns = names[i].size();
     known->quantity->numbers.resize(records * known->quantity->columns);
   }
   return columns;

@@ -44,7 +44,6 @@ RecordLayout layoutOf(const ContributionOptions& options, const OutputPlan& plan
   const bool named = !plan.name.empty();
   if (named && !plan.modifier.empty()) layout.lines += fmt::format("MODIFIER={}\n", plan.modifier);
   if (named && !plan.bin.empty()) layout.lines += fmt::format("BIN={}\n", plan.bin);
-  if (options.sphere.accuracy > 0) layout.lines += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
   if (plan.errors) layout.lines += "STANDARD_ERRORS=yes\n";
   if (options.countsRecords() && options.height > 0)
     layout.lines += fmt::format("NROWS={}\n", options.height * std::max<int64_t>(options.width, 1));

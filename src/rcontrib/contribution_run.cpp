@@ -87,11 +87,7 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   const AnswerOptions paced = pacedByRays(options);
   RunSummary summary;
   RunEnd end;
-  end.ended = [&] {
-    for (const std::string& text : summary.warnings(options, transport.prepared())) warn(text);
-    if (const std::string text = summary.report(options); !text.empty() && isatty(messages.descriptor()) != 0)
-      messages.report(text);
-  };
+  end.ended = [&] { summary.tell(messages, options, transport.prepared()); };
   end.leave = [&](const std::exception_ptr& fault) {
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };

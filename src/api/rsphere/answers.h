@@ -119,8 +119,9 @@ struct Contributions {
   // Radiance (W/sr/m2), irradiance (W/m2) with -i and -I, or coefficients, in red, green and blue; with -cs
   // above 3 in bands.
   Quantity value;
-  Quantity standardError;  // of value, from the spread of ContributionOptions::samples; no columns if samples
-                           // is 1
+  // Estimated standard error of value, in its units, from the spread of ContributionOptions::samples, or of
+  // the sets of rays that an accuracy takes. No columns without an accuracy if samples is 1.
+  Quantity standardError;
 };
 
 // RADIANCE's luminous efficacy of white light (lm/W), and the weights of red, green and blue in it.

@@ -6,8 +6,6 @@
 #include "answer/answer_rays.h"
 #include "base/colorimetry.h"
 #include "companions/measure/work.h"
-#include "estimate/ray_estimator.h"
-#include "process/threads.h"
 
 namespace rsphere {
 
@@ -34,36 +32,29 @@ Trials::Answerer Trials::points(const Setting& setting, bool standardErrors) {
 // Each repeat has patches of its own, whose noise all rays share.
 Trials::Answerer Trials::rays(const Setting& setting) {
   struct Workers {
-    Workers(const Scene& scene, const AnswerOptions& options, bool estimates)
-        : transport(scene, options.ray, options.irradiance) {
-      if (estimates)
-        estimator.emplace(transport,
-                          RayEstimator::Options{options.sphere.accuracy, options.sphere.accuracyFloor});
-      for (unsigned i = 0; i < threadCount(options.threads); ++i) {
-        tracers.emplace_back();
-        if (estimator)
-          tracers.back() = estimator->tracers();
-        else
-          tracers.back().push_back(transport.pathTracer());
-      }
-    }
+    Workers(const Scene& scene, const AnswerOptions& options)
+        : transport(scene, options.ray, options.irradiance) {}
     Transport transport;
-    std::optional<RayEstimator> estimator;
-    std::vector<std::vector<PathTracer>> tracers;
+    std::vector<PathTracer> tracers{};
+    std::optional<EstimatedRays> estimated{};
   };
   const AnswerOptions& options = setting.options;
-  const auto workers = std::make_shared<Workers>(scene_, options, options.sphere.accuracy > 0);
+  const auto workers = std::make_shared<Workers>(scene_, options);
+  if (options.sphere.accuracy > 0)
+    workers->estimated.emplace(workers->transport, options, [this] { signals_.check(); });
+  else
+    workers->tracers = rayTracers(workers->transport, options);
   return [this, workers, &options](size_t i, unsigned worker) {
     const std::span<const double> numbers = points_.subspan(perRecord_ * i, perRecord_);
     const InputRay in = inputRay(numbers.data(), options.irradiance, scene_.samePlace);
     const uint64_t seed = seedOfRay(numbers, i, options);
-    std::vector<PathTracer>& tracers = workers->tracers[worker];
-    if (!workers->estimator)
-      return Answer{
-          photopicOf(tracers[0].trace(in.origin, in.direction, 0, seed).value.color, options.ray.sampling)};
-    const auto estimate = workers->estimator->estimate(tracers, in.origin, in.direction, 0, seed, {},
-                                                       [this] { signals_.check(); });
-    return Answer{photopicOf(estimate.ray.value.color, options.ray.sampling), estimate.brightnessError};
+    const auto brightnessOf = [&](const Radiance& value) {
+      return photopicOf(value.color, options.ray.sampling);
+    };
+    if (!workers->estimated)
+      return Answer{brightnessOf(workers->tracers[worker].trace(in.origin, in.direction, 0, seed).value)};
+    const RayEstimator::Estimate estimate = workers->estimated->estimate(worker, in, 0, seed);
+    return Answer{brightnessOf(estimate.ray.value), estimate.brightnessError};
   };
 }
 

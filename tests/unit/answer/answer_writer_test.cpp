@@ -1,5 +1,6 @@
 #include "answer/answer_writer.h"
 
+#include "answer/column_names.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "answer/answer_writer.h"
+#include "answer/column_names.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {
