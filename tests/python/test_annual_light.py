@@ -11,7 +11,7 @@ import numpy as np
 
 from rsphere.annual.light import Light, Settings, SunGrid, check_sky
 from rsphere.annual.shades import ALLOWED, LOWERED, TRANSMITTANCE, UP, group_of, states_by_rule
-from rsphere.annual.sun import sun_position
+from rsphere.annual.sun import MONTHS, sun_position
 from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdicts_of
 from rsphere.annual.weather import Weather
 from rsphere.fault import Fault
@@ -199,6 +199,16 @@ class Closed(InAFolder):
         self.assertAlmostEqual(lux.sum() / wanted.sum(), 1, delta=0.005)
         np.testing.assert_allclose(lux, wanted, rtol=0.03)
         np.testing.assert_allclose(light.year.direct[0], d.sun * d.to_sun[:, 2], rtol=1e-5)
+
+    def test_open_field_over_a_year(self):
+        """The light of all hours of a year, clear to overcast, is that of the weather within .5%."""
+        cover = np.random.default_rng(1).random(366)
+        hours = [row for i, (m, d) in enumerate((m, d) for m in range(1, 13) for d in range(1, MONTHS[m - 1] + 1))
+                 for row in clear_days([(m, d)], 800 * cover[i], 250 - 200 * cover[i])]
+        light = self.light(BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n", [[5, 5, 1, 0, 0, 1]], hours)
+        d = light.daylight
+        self.assertGreater(len(d.sun), 4000)
+        self.assertAlmostEqual(light.year.lux.mean(axis=0).sum() / (d.diffuse + d.sun * d.to_sun[:, 2]).sum(), 1, delta=0.005)
 
     def test_sun_through_a_window_to_the_hour(self):
         """In a black box direct sun is where the ray to the sun passes the window, 1 to 3 m east and 1 to 2 m high."""

@@ -5,10 +5,13 @@ import tempfile
 
 import numpy as np
 
+import rsphere
+
 from ..command import Options
 from ..fault import Fault, fault
 from ..layout.room import read_polygons
 from ..progress import PROGRESS
+from . import outside
 from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
 from .report import Report
@@ -37,6 +40,12 @@ def arguments():
     parser.add_argument("--spacing", type=float, default=0.5, metavar="D", help="largest, of the grid")
     parser.add_argument("--margin", type=float, default=0.0, metavar="M", help="without sensors, along edges")
     parser.add_argument("--shades", action="append", default=[], metavar="NAME[=X]", help="windows with blinds: modifier; transmittance or file")
+    parser.add_argument("--sunlight", metavar="NAME", help="windows whose hours of sun are counted (EN 17037): modifier, or file of points")
+    parser.add_argument("--day", default="3-21", metavar="M-D", help="of these hours, from 2-1 to 3-21")
+    parser.add_argument("--sun-altitude", type=float, default=outside.LOWEST_SUN, metavar="A", help="lowest that counts, degrees: your country's")
+    parser.add_argument("--view", type=float, metavar="H", help="view out (EN 17037) of eyes this high above the floor: 1.2")
+    parser.add_argument("--landscape", action="append", default=[], metavar="NAME", help="modifier of what is landscape or city in views")
+    parser.add_argument("--ground", action="append", default=["ground"], metavar="NAME", help="of the ground outside")
     parser.add_argument("--coefficients", metavar="FILE", help="of rcontrib or rfluxmtx, instead of a scene")
     parser.add_argument("-b", "--bounces", type=int, default=8, metavar="N", help="reflections that are followed")
     parser.add_argument("-d", "--divisions", type=int, default=256, metavar="N", help="rays of a sensor (-ad) in each estimate")
@@ -47,16 +56,19 @@ def arguments():
     parser.add_argument("-o", "--output", default="annual", metavar="FOLDER", help="for the results")
     given = parser.parse_args()
     for name, least, most in (("bounces", 0, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096),
-                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("accuracy", 1e-5, 1)):
+                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("accuracy", 1e-5, 1), ("sun_altitude", 0, 45), ("view", 0, 100)):
         value = getattr(given, name)
         if value is not None and not least <= value <= most:
-            raise Fault(f"--{name} must be from {least:g} to {most:g}")
+            raise Fault(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
     if not given.weather and len(given.scene) == 2 and given.scene[0].lower().endswith((".epw", ".wea")):
         (given.weather, given.coefficients), given.scene = given.scene, []
     if not given.weather:
         raise Fault("needs --weather FILE, the hours of a year: .epw or .wea")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
+    given.day = outside.day_of(given.day)
+    if given.coefficients and (given.sunlight or given.view is not None):
+        raise Fault("--sunlight and --view need scene files")
     if given.on and given.sensors:
         raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
     given.on = given.on or ([] if given.sensors or given.coefficients else ["floor"])
@@ -98,9 +110,25 @@ def estimates(light, given):
         PROGRESS.count += 2 * ESTIMATES * light.pass_count()
 
 
-def year_of_scene(given, weather, notes):
+def add_outside(given, polygons, sensors, weights, place, report):
+    """Adds sunlight and view out to a Report."""
+    scene = rsphere.Scene(given.scene)
+    through = [word.partition("=")[0] for word in given.shades] + [given.sunlight] * bool(given.sunlight)
+    floor = sensors[:, 2].min() - given.height
+    if given.sunlight:
+        windows = outside.windows_of(given.sunlight, polygons, sensors[:, :3], floor)
+        verdicts, report.windows = outside.sunlight_verdicts(scene, windows, given.day, place, given.sun_altitude, through)
+        report.add(verdicts, {}, f"Sunlight counts from an altitude of {given.sun_altitude:g} degrees (--sun-altitude): the table of the standard "
+                                 "was not read. Hours are those in which it shines on any of the windows.")
+    if given.view is not None:
+        PROGRESS.begin("View out", len(sensors))
+        view = outside.View(scene, sensors[:, :3] + [0, 0, given.view - given.height], given.landscape, given.ground, through)
+        lacks = [f"No surface is landscape (--landscape {', '.join(given.landscape) or 'NAME'}): no view is met."] * (not view.solid_angles[:, 1].any())
+        report.add(view.verdicts(weights), view.quantities(), *lacks)
+
+
+def year_of_scene(given, weather, polygons, notes):
     """The Year, the sensors and, for each work plane, its name and which of them are on it."""
-    polygons = read_polygons(given.scene)
     if given.on:
         sensors, weights, planes = sensors_on(given, polygons)
     else:
@@ -147,9 +175,12 @@ def main():
         notes.append(f"Light from {FROM} to {UNTIL} h: {light / 1e6:.3f} Mlx h, mean of the sensors.")
         sensors, planes = np.zeros((len(coefficients), 0)), []
     else:
-        year, sensors, planes = year_of_scene(given, weather, notes)
+        polygons = read_polygons(given.scene)
+        year, sensors, planes = year_of_scene(given, weather, polygons, notes)
     notes.insert(0, f"{len(sensors)} sensors; {year.all_hours} hours of {os.path.basename(given.weather)}, {year.occupied_hours} from 8 to 18 h.")
     report = Report(year, list(verdicts_of(year)), notes)
+    if given.scene:
+        add_outside(given, polygons, sensors, year.weights, weather.place, report)
     text = report.text()
     print(text, end="")
     report.write(given.output, "table.txt", text)

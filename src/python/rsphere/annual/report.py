@@ -9,7 +9,10 @@ from .sensors import draw
 from .verdicts import quantities_of
 
 HEAD = ["rule", "asked", "has", "+-", "met", "unsure sensors"]
-DRAWN = (("DA 300 lx", "autonomy"), ("UDI 300 to 3000 lx", "useful"), ("direct sun of 1000 lx", "sun"))
+HOURS = ", 8 to 18 h"
+DRAWN = (("DA 300 lx", "autonomy", HOURS), ("UDI 300 to 3000 lx", "useful", HOURS), ("direct sun of 1000 lx", "sun", HOURS), ("sight angle", "view", ""))
+WITHOUT_MEAN = ("distance of the view",)
+DIGITS = {"sr": 2}  # behind the point; 1 for other units
 
 
 def shown(verdict, known):
@@ -26,7 +29,16 @@ class Report:
         self.year, self.verdicts, self.notes = year, verdicts, notes
         self.known = len(year.lux) > 1
         self.quantities = quantities_of(year)
-        self.sources = list(dict.fromkeys(v.source for v in verdicts))
+        self.windows = []  # rows of a table, the first its head
+
+    def add(self, verdicts, quantities, *notes):
+        self.verdicts += verdicts
+        self.quantities.update(quantities)
+        self.notes += notes
+
+    @property
+    def sources(self):
+        return list(dict.fromkeys(v.source for v in self.verdicts))
 
     def rows(self, source):
         return [shown(v, self.known) for v in self.verdicts if v.source == source]
@@ -34,9 +46,11 @@ class Report:
     def means(self):
         """Of the quantities: name, mean of the sensors, its standard error if it is known."""
         for name, (values, errors, unit) in self.quantities.items():
-            factor = 100 if unit == "%" else 1
-            mean, error = (factor * float(self.year.weights @ x) for x in (values, errors))
-            yield [name, f"{mean:.1f}{'' if unit == '%' else ' '}{unit}", f"{error:.1f}" if self.known else ""]
+            if name in WITHOUT_MEAN:
+                continue
+            factor, digits = 100 if unit == "%" else 1, DIGITS.get(unit, 1)
+            mean, error = (f"{factor * float(self.year.weights @ x):.{digits}f}" for x in (values, errors))
+            yield [name, f"{mean}{'' if unit == '%' else ' '}{unit}", error if self.known else ""]
 
     def text(self):
         rows = {s: [[c.removeprefix("!") for c in row] for row in self.rows(s)] for s in self.sources}
@@ -49,6 +63,8 @@ class Report:
         lines += ["", line(HEAD)]
         for s in self.sources:
             lines += [f"{s}:", *(line(row) for row in rows[s])]
+        if self.windows:
+            lines += ["", *("\t".join(row) for row in self.windows)]
         return "\n".join(lines) + "\n"
 
     def write(self, folder, name, text):
@@ -77,11 +93,16 @@ class Report:
             page.heading(source)
             page.add(table(HEAD, self.rows(source), 2))
         page.note("+-: standard error of what the room has. Unsure sensors are those that are within two standard errors of their limit.")
+        if self.windows:
+            page.heading("Sunlight")
+            page.add(table(self.windows[0], self.windows[1:], 2))
         page.heading("Means of the sensors")
         page.add(table(["quantity", "mean", "+-"], list(self.means())))
         for name, chosen in planes:
-            for quantity, file in DRAWN:
+            for quantity, file, hours in DRAWN:
+                if quantity not in self.quantities:
+                    continue
                 values, _, unit = self.quantities[quantity]
                 path = os.path.join(given.output, f"{file}_{name}.svg" if len(planes) > 1 else f"{file}.svg")
-                page.figure(draw(given, name, values[chosen] * (100 if unit == "%" else 1), unit, f"{quantity}, 8 to 18 h ({unit}): {name}", path))
+                page.figure(draw(given, name, values[chosen] * (100 if unit == "%" else 1), unit, f"{quantity}{hours} ({unit}): {name}", path))
         self.write(given.output, "page.html", page.html())
