@@ -12,6 +12,7 @@ from ..fault import Fault, fault
 from ..layout.room import read_polygons
 from ..progress import PROGRESS
 from . import outside
+from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
 from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
 from .report import Report
@@ -46,6 +47,7 @@ def arguments():
     parser.add_argument("--view", type=float, metavar="H", help="view out (EN 17037) of eyes this high above the floor: 1.2")
     parser.add_argument("--landscape", action="append", default=[], metavar="NAME", help="modifier of what is landscape or city in views")
     parser.add_argument("--ground", action="append", default=["ground"], metavar="NAME", help="of the ground outside")
+    parser.add_argument("--eyes", metavar="FILE", help="x y z dx dy dz, one a line: melanopic and other light (CIE S 026) at eyes")
     parser.add_argument("--coefficients", metavar="FILE", help="of rcontrib or rfluxmtx, instead of a scene")
     parser.add_argument("-b", "--bounces", type=int, default=8, metavar="N", help="reflections that are followed")
     parser.add_argument("-d", "--divisions", type=int, default=256, metavar="N", help="rays of a sensor (-ad) in each estimate")
@@ -67,8 +69,8 @@ def arguments():
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     given.day = outside.day_of(given.day)
-    if given.coefficients and (given.sunlight or given.view is not None):
-        raise Fault("--sunlight and --view need scene files")
+    if given.coefficients and (given.sunlight or given.eyes or given.view is not None):
+        raise Fault("--sunlight, --view and --eyes need scene files")
     if given.on and given.sensors:
         raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
     given.on = given.on or ([] if given.sensors or given.coefficients else ["floor"])
@@ -110,6 +112,12 @@ def estimates(light, given):
         PROGRESS.count += 2 * ESTIMATES * light.pass_count()
 
 
+def add_eyes(eyes, light, report):
+    """Adds what eyes get to a Report."""
+    report.eyes = eyes, quantities_of_eyes(light.year, light.at_eyes)
+    report.add(verdicts_of_eyes(melanopic_year(light.year, light.at_eyes)), {})
+
+
 def add_outside(given, polygons, sensors, weights, place, report):
     """Adds sunlight and view out to a Report."""
     scene = rsphere.Scene(given.scene)
@@ -127,18 +135,19 @@ def add_outside(given, polygons, sensors, weights, place, report):
         report.add(view.verdicts(weights), view.quantities(), *lacks)
 
 
-def year_of_scene(given, weather, polygons, notes):
-    """The Year, the sensors and, for each work plane, its name and which of them are on it."""
+def light_of_scene(given, weather, polygons, notes):
+    """The Light, the sensors, for each work plane its name and which of them are on it, and the eyes."""
     if given.on:
         sensors, weights, planes = sensors_on(given, polygons)
     else:
         sensors, planes = read_sensors(given.sensors), []
         weights = np.full(len(sensors), 1 / len(sensors))
+    eyes = read_sensors(given.eyes, "an eye") if given.eyes else np.zeros((0, 6))
     groups = [group_of(word, polygons, sensors[:, :3]) for word in given.shades]
     with tempfile.TemporaryDirectory() as folder:
         check_sky(given.scene, polygons, folder)
         light = Light(given.scene, sensors, weights, weather, groups, folder,
-                      Settings(given.bounces, given.divisions, max(16, given.divisions // 4), threads=given.threads))
+                      Settings(given.bounces, given.divisions, max(16, given.divisions // 4), threads=given.threads), eyes)
         check_weather(given.weather, weather, light.dark_sun)
         try:
             estimates(light, given)
@@ -151,7 +160,7 @@ def year_of_scene(given, weather, polygons, notes):
     if dark:
         warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something")
     notes += light.notes()
-    return light.year, sensors, planes
+    return light, sensors, planes, eyes
 
 
 def main():
@@ -171,20 +180,25 @@ def main():
         year, dark_sun = light_of_coefficients(coefficients, factor, weather)
         check_weather(given.weather, weather, dark_sun)
         notes.append("The sun is spread over patches of the sky: there is no ASE, no shade is lowered, and errors are not known.")
-        light = year.lux.mean(axis=0)[:, year.occupied()].sum(axis=1).mean()
-        notes.append(f"Light from {FROM} to {UNTIL} h: {light / 1e6:.3f} Mlx h, mean of the sensors.")
+        lux_hours = year.lux.mean(axis=0)[:, year.occupied()].sum(axis=1).mean()
+        notes.append(f"Light from {FROM} to {UNTIL} h: {lux_hours / 1e6:.3f} Mlx h, mean of the sensors.")
         sensors, planes = np.zeros((len(coefficients), 0)), []
     else:
         polygons = read_polygons(given.scene)
-        year, sensors, planes = year_of_scene(given, weather, polygons, notes)
+        light, sensors, planes, eyes = light_of_scene(given, weather, polygons, notes)
+        year = light.year
     notes.insert(0, f"{len(sensors)} sensors; {year.all_hours} hours of {os.path.basename(given.weather)}, {year.occupied_hours} from 8 to 18 h.")
     report = Report(year, list(verdicts_of(year)), notes)
     if given.scene:
+        if len(eyes):
+            add_eyes(eyes, light, report)
         add_outside(given, polygons, sensors, year.weights, weather.place, report)
     text = report.text()
     print(text, end="")
     report.write(given.output, "table.txt", text)
-    report.write_sensors(given.output, sensors)
+    report.write_places(given.output, "sensors.txt", sensors[:, :3], report.quantities)
+    if report.eyes:
+        report.write_places(given.output, "eyes.txt", *report.eyes)
     report.write_page(given, planes)
     print(f"{os.path.join(given.output, 'page.html')}: the page")
     return 0

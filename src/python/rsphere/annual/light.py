@@ -14,6 +14,7 @@ import rsphere
 
 from ..fault import Fault
 from ..progress import PROGRESS
+from .alpha_opic import BANDS, OBSERVERS, by_observers
 from .shades import LOWERED, UP, states_by_rule
 from .sky import daylight_of, with_sun
 from .verdicts import FROM, UNTIL, Year, estimated
@@ -94,7 +95,7 @@ def check_sky(files, polygons, folder):
 class Pass:
     """Light in a scene with some of its windows closed."""
 
-    def __init__(self, files, text, folder, name, sensors, to_sun, reflected_from, settings):
+    def __init__(self, files, text, folder, name, sensors, eyes, to_sun, reflected_from, settings):
         """to_sun: all directions of direct light; reflected_from: those of reflected light."""
         def scene(light, directions):
             path = os.path.join(folder, f"{name}_{light}.rad")
@@ -102,22 +103,26 @@ class Pass:
                 stream.write(text + (SKY if light == "sky" else sun_text(directions)))
             return rsphere.Scene([path, *files])
 
-        self.sensors, self.reflected_from, self.settings = sensors, reflected_from, settings
+        self.sensors, self.eyes, self.reflected_from, self.settings = sensors, eyes, reflected_from, settings
         exact = np.concatenate([to_sun, reflected_from])
         self.by_sky = scene("sky", ())
         self.bins = {"files": os.path.join(folder, "patches.cal"), "expression": "patch", "count": "patches"}
         with open(os.path.join(HERE, "patches.cal"), encoding="ascii") as stream, open(self.bins["files"], "w", encoding="ascii") as made:
             made.write(stream.read().replace("factor : 4", f"factor : {FACTOR}"))
         self.by_sun = scene("sun", reflected_from) if len(exact) else None
-        found = self.contributions(scene("direct", exact), exact, ambient_bounces=0) if len(exact) else np.zeros((len(sensors), 0))
+        found = self.contributions(scene("direct", exact), exact, ambient_bounces=0) if len(exact) else np.zeros((len(sensors) + len(OBSERVERS) * len(eyes), 0))
         self.direct, self.direct_beside = found[:, : len(to_sun)], found[:, len(to_sun) :]
 
     def contributions(self, scene, suns=None, bins=None, **options):
-        """Coefficients, illuminance for radiance 1: (sensors, suns or bins)."""
+        """Coefficients, illuminance for radiance 1: (rows, suns or bins). Rows are the sensors, and the eyes by each observer."""
         of = ["rsphere_sky"] if suns is None else [f"rsphere_sun{i}" for i in range(len(suns))]
         options = dict(dict(irradiance_at_origin=True, coefficients=True, samples=1, dt=0, dj=0, threads=self.settings.threads), **options)
         value = scene.contributions(self.sensors, of=of, bins=bins, **options).value @ VISIBLE
-        return value.reshape(len(self.sensors), -1)
+        rows = value.reshape(len(self.sensors), -1)
+        if not len(self.eyes):
+            return rows
+        bands = scene.contributions(self.eyes, of=of, bins=bins, cs=BANDS, **options).value
+        return np.vstack([rows, by_observers(bands.reshape(len(self.eyes), -1, BANDS))])
 
     def sky(self, number):
         """One estimate of the light of all patches."""
@@ -145,8 +150,8 @@ def occupied_hours(rows):
 class Light:
     """The light of a year at sensors, estimated again and again."""
 
-    def __init__(self, files, sensors, weights, weather, groups, folder, settings):
-        """files: the scene, without a sky. groups: of windows, of shades.group_of()."""
+    def __init__(self, files, sensors, weights, weather, groups, folder, settings, eyes=()):
+        """files: the scene, without a sky. groups: of windows, of shades.group_of(). eyes: as sensors, for self.at_eyes."""
         every = daylight_of(weather.hours, weather.place, FACTOR)
         lit = np.flatnonzero(every.luminance.any(axis=1))
         self.daylight = type(every)(*(part[lit] for part in every))
@@ -162,10 +167,11 @@ class Light:
         self.year = Year(rows[lit, :3], None, None, None, self.daylight.diffuse, self.daylight.sun, weights, len(rows),
                          occupied_hours(rows))
         self.sums, self.counts, self.states, self.off = None, np.zeros(ESTIMATES, int), None, []
+        self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
 
         def made(name, *texts):
             PROGRESS.advance()
-            return Pass(files, "".join(texts), folder, name, sensors, to_sun, reflected_from, settings)
+            return Pass(files, "".join(texts), folder, name, sensors, np.array(eyes), to_sun, reflected_from, settings)
 
         self.groups, n = groups, len(groups)
         PROGRESS.begin("Direct sun", max(1, 2 * n) + (n > 1))
@@ -180,10 +186,11 @@ class Light:
             self.passes = [[made(f"open{i}", closed[i]), made(f"lowered{i}", closed[i], g.lowered)] for i, g in enumerate(groups)]
         direct = np.array([[self.direct_of(p) for p in states] for states in self.passes])
         self.direct = direct
-        self.year.direct = direct[:, UP].sum(axis=0) + (self.direct_of(self.base) if self.base else 0)
+        up = direct[:, UP].sum(axis=0) + (self.direct_of(self.base) if self.base else 0)
+        self.year.direct = up[: len(sensors)]
 
     def direct_of(self, one):
-        lux = np.zeros((len(one.sensors), len(self.daylight.sun)))
+        lux = np.zeros((len(one.direct), len(self.daylight.sun)))
         lux[:, self.sunny] = one.direct * (self.daylight.sun[self.sunny] / SUN_SOLID_ANGLE)
         return lux if one is self.base or not self.base else lux - self.direct_of(self.base)
 
@@ -196,7 +203,8 @@ class Light:
         lux[:, self.sunny] += reflected
         if one is self.passes[0][UP]:
             off = reflected[:, self.judged] - sun[:, len(self.grid.directions) :] * power[self.judged]
-            self.off.append((off, lux[:, self.sunny[self.judged]]))
+            n = len(self.year.weights)
+            self.off.append((off[:n], lux[:n, self.sunny[self.judged]]))
         return lux
 
     def add(self):
@@ -207,7 +215,7 @@ class Light:
         base = base + self.direct_of(self.base) if self.base else 0
         if self.states is None and len(self.passes[0]) > 1:
             w = self.year.weights
-            self.states = states_by_rule(self.direct, np.einsum("i,gsih->gsh", w, parts), w)
+            self.states = states_by_rule(self.direct[:, :, : len(w)], np.einsum("i,gsih->gsh", w, parts[:, :, : len(w)]), w)
         lux = up = base + parts[:, UP].sum(axis=0)
         if self.states is not None:
             lux = base + sum(np.where(self.states[:, g] == LOWERED, part[LOWERED], part[UP]) for g, part in enumerate(parts))
@@ -216,7 +224,8 @@ class Light:
         self.sums[:, number % ESTIMATES] += lux, up
         self.counts[number % ESTIMATES] += 1
         used = self.counts > 0
-        self.year.lux, self.year.open = self.sums[:, used] / self.counts[used, None, None]
+        (lux, up), n = self.sums[:, used] / self.counts[used, None, None], len(self.year.weights)
+        self.year.lux, self.year.open, self.at_eyes = lux[:, :n], up[:, :n], lux[:, n:]
 
     def pass_count(self):
         return sum(map(len, self.passes)) + bool(self.base)

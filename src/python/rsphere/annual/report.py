@@ -1,4 +1,5 @@
 """The table of verdicts, what each sensor has, plans, and the page for the browser."""
+import math
 import os
 
 import numpy as np
@@ -18,7 +19,7 @@ DIGITS = {"sr": 2}  # behind the point; 1 for other units
 def shown(verdict, known):
     """The cells of a Verdict. known: whether there are errors."""
     unit, factor = ("%", 100) if verdict.share else (" h", 1)
-    met = "yes" if verdict.met() else "!no"
+    met = "" if math.isnan(verdict.least) else "yes" if verdict.met() else "!no"
     return [verdict.rule, verdict.asked, f"{factor * verdict.value:.1f}{unit}", f"{factor * verdict.error:.1f}" if known else "",
             met + (", noise could turn it" if verdict.hangs() else ""), str(verdict.unsure) if known and verdict.share else ""]
 
@@ -30,6 +31,7 @@ class Report:
         self.known = len(year.lux) > 1
         self.quantities = quantities_of(year)
         self.windows = []  # rows of a table, the first its head
+        self.eyes = None  # places and gazes, and their quantities
 
     def add(self, verdicts, quantities, *notes):
         self.verdicts += verdicts
@@ -44,13 +46,17 @@ class Report:
         return [shown(v, self.known) for v in self.verdicts if v.source == source]
 
     def means(self):
-        """Of the quantities: name, mean of the sensors, its standard error if it is known."""
-        for name, (values, errors, unit) in self.quantities.items():
-            if name in WITHOUT_MEAN:
-                continue
-            factor, digits = 100 if unit == "%" else 1, DIGITS.get(unit, 1)
-            mean, error = (f"{factor * float(self.year.weights @ x):.{digits}f}" for x in (values, errors))
-            yield [name, f"{mean}{'' if unit == '%' else ' '}{unit}", error if self.known else ""]
+        """Of the quantities: name, mean of the sensors or eyes, its standard error if it is known, and whose mean it is."""
+        parts = [(self.quantities, self.year.weights, "sensors")]
+        if self.eyes:
+            parts.append((self.eyes[1], np.full(len(self.eyes[0]), 1 / len(self.eyes[0])), "eyes"))
+        for quantities, weights, whose in parts:
+            for name, (values, errors, unit) in quantities.items():
+                if name in WITHOUT_MEAN:
+                    continue
+                factor, digits = 100 if unit == "%" else 1, DIGITS.get(unit, 1)
+                mean, error = (f"{factor * float(weights @ x):.{digits}f}" for x in (values, errors))
+                yield [name, f"{mean}{'' if unit == '%' else ' '}{unit}", error if self.known else "", whose]
 
     def text(self):
         rows = {s: [[c.removeprefix("!") for c in row] for row in self.rows(s)] for s in self.sources}
@@ -58,8 +64,8 @@ class Report:
         widths = [max(len(row[i]) for row in everything) for i in range(len(HEAD))]
         line = lambda row: "  ".join(c.ljust(w) if i in (0, 1, 4) else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()  # noqa: E731
         lines = [*self.notes, ""]
-        for name, mean, error in self.means():
-            lines.append(f"{name}: {mean}{' +- ' + error if error else ''}, mean of the sensors")
+        for name, mean, error, whose in self.means():
+            lines.append(f"{name}: {mean}{' +- ' + error if error else ''}, mean of the {whose}")
         lines += ["", line(HEAD)]
         for s in self.sources:
             lines += [f"{s}:", *(line(row) for row in rows[s])]
@@ -75,14 +81,14 @@ class Report:
         except OSError as error:
             raise fault(path, None, f"cannot be written: {error.strerror}") from None
 
-    def write_sensors(self, folder, sensors):
-        """A line for each sensor: its place, what it has and the standard errors."""
-        names = [word for name in self.quantities for word in (name, "+-")]
-        lines = ["# " + "\t".join([*"xyz"[: sensors.shape[1]], *names])]
-        for i, place in enumerate(sensors[:, :3]):
-            cells = [f"{x:.5g}" for values, errors, unit in self.quantities.values() for x in np.array([values[i], errors[i]]) * (100 if unit == "%" else 1)]
+    def write_places(self, folder, file, places, quantities):
+        """A line for each sensor or eye: its place, what it has and the standard errors."""
+        names = [word for name in quantities for word in (name, "+-")]
+        lines = ["# " + "\t".join([*("x", "y", "z", "dx", "dy", "dz")[: places.shape[1]], *names])]
+        for i, place in enumerate(places):
+            cells = [f"{x:.5g}" for values, errors, unit in quantities.values() for x in np.array([values[i], errors[i]]) * (100 if unit == "%" else 1)]
             lines.append("\t".join([*(f"{x:.9g}" for x in place), *cells]))
-        self.write(folder, "sensors.txt", "\n".join(lines) + "\n")
+        self.write(folder, file, "\n".join(lines) + "\n")
 
     def write_page(self, given, planes):
         """planes: the names of the work planes, and the indexes of their sensors."""
@@ -96,8 +102,8 @@ class Report:
         if self.windows:
             page.heading("Sunlight")
             page.add(table(self.windows[0], self.windows[1:], 2))
-        page.heading("Means of the sensors")
-        page.add(table(["quantity", "mean", "+-"], list(self.means())))
+        page.heading("Means")
+        page.add(table(["quantity", "mean", "+-", "of"], list(self.means())))
         for name, chosen in planes:
             for quantity, file, hours in DRAWN:
                 if quantity not in self.quantities:

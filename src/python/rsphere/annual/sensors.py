@@ -11,20 +11,20 @@ from ..layout.room import polygons_named
 WORDS = ("x", "y", "z", "the direction along x", "the direction along y", "the direction along z")
 
 
-def read_sensors(path):
-    """Rows of a place and the direction that a sensor faces."""
+def read_sensors(path, kind="a sensor"):
+    """Rows of a place and the direction that a sensor, or an eye, faces."""
     rows = []
     for line, text in enumerate(lines_of(path), 1):
         words = text.split()
         if not words:
             continue
         if len(words) != 6:
-            raise fault(path, line, f"a sensor is a place and the direction that it faces, x y z dx dy dz, not {len(words)} words")
+            raise fault(path, line, f"{kind} is a place and the direction that it faces, x y z dx dy dz, not {len(words)} words")
         rows.append([number(word, path, line, what) for word, what in zip(words, WORDS)])
         if not any(rows[-1][3:]):
-            raise fault(path, line, "the direction of a sensor must not be 0 0 0")
+            raise fault(path, line, f"the direction of {kind} must not be 0 0 0")
     if not rows:
-        raise fault(path, None, "has no sensors")
+        raise fault(path, None, "has no sensors" if kind == "a sensor" else "has no eyes")
     return np.array(rows)
 
 
