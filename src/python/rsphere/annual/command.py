@@ -13,6 +13,7 @@ from ..layout.room import read_polygons
 from ..progress import PROGRESS
 from . import outside
 from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
+from .glare import Glare
 from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
 from .report import Report
@@ -48,6 +49,7 @@ def arguments():
     parser.add_argument("--landscape", action="append", default=[], metavar="NAME", help="modifier of what is landscape or city in views")
     parser.add_argument("--ground", action="append", default=["ground"], metavar="NAME", help="of the ground outside")
     parser.add_argument("--eyes", metavar="FILE", help="x y z dx dy dz, one a line: melanopic and other light (CIE S 026) at eyes")
+    parser.add_argument("--glare", action="store_true", help="daylight glare probability at these eyes; takes seconds for each")
     parser.add_argument("--coefficients", metavar="FILE", help="of rcontrib or rfluxmtx, instead of a scene")
     parser.add_argument("-b", "--bounces", type=int, default=8, metavar="N", help="reflections that are followed")
     parser.add_argument("-d", "--divisions", type=int, default=256, metavar="N", help="rays of a sensor (-ad) in each estimate")
@@ -71,6 +73,8 @@ def arguments():
     given.day = outside.day_of(given.day)
     if given.coefficients and (given.sunlight or given.eyes or given.view is not None):
         raise Fault("--sunlight, --view and --eyes need scene files")
+    if given.glare and not given.eyes:
+        raise Fault("--glare needs --eyes FILE")
     if given.on and given.sensors:
         raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
     given.on = given.on or ([] if given.sensors or given.coefficients else ["floor"])
@@ -112,10 +116,17 @@ def estimates(light, given):
         PROGRESS.count += 2 * ESTIMATES * light.pass_count()
 
 
-def add_eyes(eyes, light, report):
-    """Adds what eyes get to a Report."""
-    report.eyes = eyes, quantities_of_eyes(light.year, light.at_eyes)
+def add_eyes(eyes, light, glare, report):
+    """Adds what eyes get to a Report. glare: a Glare or None."""
+    quantities = quantities_of_eyes(light.year, light.at_eyes)
     report.add(verdicts_of_eyes(melanopic_year(light.year, light.at_eyes)), {})
+    if glare:
+        n = len(glare.weights)
+        if n < len(eyes):
+            report.notes.append(f"Interrupted: glare at {n} of {len(eyes)} eyes.")
+        quantities.update({name: (*(np.append(x, np.full(len(eyes) - n, np.nan)) for x in values), unit) for name, (*values, unit) in glare.quantities().items()})
+        report.add(glare.verdicts(), {})
+    report.eyes = eyes, quantities
 
 
 def add_outside(given, polygons, sensors, weights, place, report):
@@ -136,13 +147,15 @@ def add_outside(given, polygons, sensors, weights, place, report):
 
 
 def light_of_scene(given, weather, polygons, notes):
-    """The Light, the sensors, for each work plane its name and which of them are on it, and the eyes."""
+    """The Light, the sensors, for each work plane its name and which of them are on it, the eyes, and their Glare or None."""
     if given.on:
         sensors, weights, planes = sensors_on(given, polygons)
     else:
         sensors, planes = read_sensors(given.sensors), []
         weights = np.full(len(sensors), 1 / len(sensors))
     eyes = read_sensors(given.eyes, "an eye") if given.eyes else np.zeros((0, 6))
+    if given.glare and (np.hypot(eyes[:, 3], eyes[:, 4]) < 1e-6 * np.abs(eyes[:, 5])).any():
+        raise fault(given.eyes, None, "has a gaze straight up or down, where glare is not defined")
     groups = [group_of(word, polygons, sensors[:, :3]) for word in given.shades]
     with tempfile.TemporaryDirectory() as folder:
         check_sky(given.scene, polygons, folder)
@@ -156,11 +169,17 @@ def light_of_scene(given, weather, polygons, notes):
                 raise
             PROGRESS.clear()
             notes.append(f"Interrupted after {light.counts.sum()} estimates.")
+        try:
+            glare = Glare(given.scene, eyes, weather, groups, folder, light) if given.glare else None
+        except KeyboardInterrupt:
+            PROGRESS.clear()
+            glare = None
+            notes.append("Interrupted: there is no glare.")
     dark = int((light.year.open.sum(axis=(0, 2)) == 0).sum())
     if dark:
         warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something")
     notes += light.notes()
-    return light, sensors, planes, eyes
+    return light, sensors, planes, eyes, glare
 
 
 def main():
@@ -185,13 +204,13 @@ def main():
         sensors, planes = np.zeros((len(coefficients), 0)), []
     else:
         polygons = read_polygons(given.scene)
-        light, sensors, planes, eyes = light_of_scene(given, weather, polygons, notes)
+        light, sensors, planes, eyes, glare = light_of_scene(given, weather, polygons, notes)
         year = light.year
     notes.insert(0, f"{len(sensors)} sensors; {year.all_hours} hours of {os.path.basename(given.weather)}, {year.occupied_hours} from 8 to 18 h.")
     report = Report(year, list(verdicts_of(year)), notes)
     if given.scene:
         if len(eyes):
-            add_eyes(eyes, light, report)
+            add_eyes(eyes, light, glare, report)
         add_outside(given, polygons, sensors, year.weights, weather.place, report)
     text = report.text()
     print(text, end="")

@@ -29,6 +29,7 @@ DECLINATION = 23.45  # degrees, the largest
 SKY_WEIGHT, SUN_WEIGHT = 0.05, 0.3  # of a ray of a sensor, below which Russian roulette ends paths: least time for equal noise
 DIM = 0.02  # of the mean light; darker sensors are inside of something
 NEGLIGIBLE = 1e-3  # light with all groups closed, by that of the scene as it is drawn
+MOST_AT_ONCE = 1 << 21  # coefficients
 JUDGED = 16  # hours in which reflected sun is computed from the true position, too
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
 
@@ -77,6 +78,7 @@ class Settings:
     seasons: int = 13  # declinations of the sun, and hours between its positions: by these the light of single hours errs by 1% in
     hours: float = 0.5  # a classroom with windows to the south
     threads: int = 0
+    radiance: bool = False  # of rays instead of illuminance: cd/m2, without the disk of the sun
 
 
 def check_sky(files, polygons, folder):
@@ -116,19 +118,20 @@ class Pass:
     def contributions(self, scene, suns=None, bins=None, **options):
         """Coefficients, illuminance for radiance 1: (rows, suns or bins). Rows are the sensors, and the eyes by each observer."""
         of = ["rsphere_sky"] if suns is None else [f"rsphere_sun{i}" for i in range(len(suns))]
-        options = dict(dict(irradiance_at_origin=True, coefficients=True, samples=1, dt=0, dj=0, threads=self.settings.threads), **options)
-        value = scene.contributions(self.sensors, of=of, bins=bins, **options).value @ VISIBLE
-        rows = value.reshape(len(self.sensors), -1)
+        options = dict(dict(irradiance_at_origin=not self.settings.radiance, coefficients=True, samples=1, dt=0, dj=0, dv=suns is None or not
+                            self.settings.radiance, threads=self.settings.threads), **options)
+        chunks = np.array_split(self.sensors, -(-len(self.sensors) * (len(suns) if bins is None else 0) // MOST_AT_ONCE) or 1)
+        rows = np.vstack([(scene.contributions(part, of=of, bins=bins, **options).value @ VISIBLE).reshape(len(part), -1) for part in chunks])
         if not len(self.eyes):
             return rows
         bands = scene.contributions(self.eyes, of=of, bins=bins, cs=BANDS, **options).value
         return np.vstack([rows, by_observers(bands.reshape(len(self.eyes), -1, BANDS))])
 
-    def sky(self, number):
+    def sky(self, number, divisions=None):
         """One estimate of the light of all patches."""
-        s = self.settings
-        return self.contributions(self.by_sky, bins=self.bins, ambient_bounces=s.bounces, ambient_divisions=s.divisions,
-                                  limit_weight=SKY_WEIGHT / s.divisions, rotation=number)
+        divisions = divisions or self.settings.divisions
+        return self.contributions(self.by_sky, bins=self.bins, ambient_bounces=self.settings.bounces, ambient_divisions=divisions,
+                                  limit_weight=SKY_WEIGHT / divisions, rotation=number)
 
     def estimate(self, number):
         """One estimate of the light of all patches, and of the reflected light of the sun. number: of the estimate."""
@@ -152,6 +155,7 @@ class Light:
 
     def __init__(self, files, sensors, weights, weather, groups, folder, settings, eyes=()):
         """files: the scene, without a sky. groups: of windows, of shades.group_of(). eyes: as sensors, for self.at_eyes."""
+        self.settings = settings
         every = daylight_of(weather.hours, weather.place, FACTOR)
         lit = np.flatnonzero(every.luminance.any(axis=1))
         self.daylight = type(every)(*(part[lit] for part in every))
@@ -168,6 +172,7 @@ class Light:
                          occupied_hours(rows))
         self.sums, self.counts, self.states, self.off = None, np.zeros(ESTIMATES, int), None, []
         self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
+        self.open_at_eyes = None  # the same, shades up
 
         def made(name, *texts):
             PROGRESS.advance()
@@ -225,7 +230,14 @@ class Light:
         self.counts[number % ESTIMATES] += 1
         used = self.counts > 0
         (lux, up), n = self.sums[:, used] / self.counts[used, None, None], len(self.year.weights)
-        self.year.lux, self.year.open, self.at_eyes = lux[:, :n], up[:, :n], lux[:, n:]
+        self.year.lux, self.year.open, self.at_eyes, self.open_at_eyes = lux[:, :n], up[:, :n], lux[:, n:], up[:, n:]
+
+    def keep(self, rows):
+        """Leaves out all sensors but some, before the first estimate; there must be no eyes."""
+        for one in [self.base] * bool(self.base) + [p for states in self.passes for p in states]:
+            one.sensors, one.direct, one.direct_beside = one.sensors[rows], one.direct[rows], one.direct_beside[rows]
+        self.direct, self.year.direct = self.direct[:, :, rows], self.year.direct[rows]
+        self.year.weights = np.full(len(self.year.direct), 1 / max(1, len(self.year.direct)))
 
     def pass_count(self):
         return sum(map(len, self.passes)) + bool(self.base)

@@ -13,7 +13,7 @@ HEAD = ["rule", "asked", "has", "+-", "met", "unsure sensors"]
 HOURS = ", 8 to 18 h"
 DRAWN = (("DA 300 lx", "autonomy", HOURS), ("UDI 300 to 3000 lx", "useful", HOURS), ("direct sun of 1000 lx", "sun", HOURS), ("sight angle", "view", ""))
 WITHOUT_MEAN = ("distance of the view",)
-DIGITS = {"sr": 2}  # behind the point; 1 for other units
+DIGITS = {"sr": 2, "": 2}  # behind the point; 1 for other units
 
 
 def shown(verdict, known):
@@ -55,8 +55,8 @@ class Report:
                 if name in WITHOUT_MEAN:
                     continue
                 factor, digits = 100 if unit == "%" else 1, DIGITS.get(unit, 1)
-                mean, error = (f"{factor * float(weights @ x):.{digits}f}" for x in (values, errors))
-                yield [name, f"{mean}{'' if unit == '%' else ' '}{unit}", error if self.known else "", whose]
+                mean, error = (f"{factor * float(np.nansum(weights * x) / weights[~np.isnan(x)].sum()):.{digits}f}" for x in (values, errors))
+                yield [name, f"{mean}{'' if unit in ('%', '') else ' '}{unit}", error if self.known else "", whose]
 
     def text(self):
         rows = {s: [[c.removeprefix("!") for c in row] for row in self.rows(s)] for s in self.sources}
