@@ -1,5 +1,6 @@
 """rsphere-annual with coefficients of a file: faults of it and of weather files are one line with file and line, and nothing that
 is left out is left out silently."""
+import gzip
 import os
 import re
 import tempfile
@@ -33,7 +34,7 @@ def coefficients(order="<", header="", values=146 * 3, **changes):
 class Annual(unittest.TestCase):
     def run_annual(self, weather, of_sky=None, name="w.wea"):
         with tempfile.TemporaryDirectory() as folder:
-            for file, data in ((name, weather), ("co.f", of_sky or coefficients())):
+            for file, data in ((name, weather), ("co.f", coefficients() if of_sky is None else of_sky)):
                 with open(os.path.join(folder, file), "wb") as stream:
                     stream.write(data if isinstance(data, bytes) else data.encode("latin-1"))
             before = os.getcwd()
@@ -115,6 +116,43 @@ class Annual(unittest.TestCase):
         self.refuse("co.f: has a coefficient that is not a number", wea, coefficients(FORMAT="ascii") + b"x\n")
         self.refuse("co.f: has 439 coefficients, not 438", wea, coefficients(FORMAT="ascii") + b"1\n")
         self.refuse("co.f: has a coefficient below 0", wea, coefficients(FORMAT="ascii")[:-5] + b"-1\n")
+
+    def test_files_of_other_kinds(self):
+        """What was taken for weather or coefficients without a word, or was refused by a line without its place."""
+        good, e = WEA + "\n".join(DAY) + "\n", epw()
+        hours = lambda direct, diffuse: WEA + "\n".join(f"6 1 {h + 0.5} {direct * (6 < h < 18)} {diffuse * (6 < h < 18)}" for h in range(24))  # noqa: E731
+        for said, weather, of_sky in (
+            ("w.wea:1: is not a text file", good.encode("utf-16"), None), ("w.wea:1: is not a text file", gzip.compress(good.encode()), None),
+            ("w.wea:1: the header lacks place", good.replace(" ", ";"), None), ("w.wea:1: the header lacks place", "<html>404</html>\n", None),
+            ("w.wea:3: latitude is in line 2 already", good.replace("latitude 50", "latitude 50\nlatitude -50"), None),
+            ("w.wea:1: the header lacks place", "\n".join(DAY) + "\n" + WEA, None), ("w.wea:19: the hour must be a number, not \"12,5\"; decimals", good.replace("12.5", "12,5"), None),
+            ("w.wea:8: is 0.25 h after the row before it; each row must be an hour", WEA + "6 1 12 1 1\n6 1 12.25 1 1\n", None),
+            ("w.wea:7: an hour is month, day, hour, direct normal and diffuse irradiance, not 6 words", WEA + "2020 6 1 12.5 300 100\n", None),
+            ("w.wea:7: the day must be from 1 to 29", WEA + "2 30 12.5 300 100\n", None), ("w.wea:7: the direct normal irradiance must be from 0 to 1500", WEA + "6 1 12.5 -999 0\n", None),
+            ("w.wea:1: the header lacks place", e.replace(",", ";"), None), ("w.wea:2: is an hour, but an .epw has 8 lines", "\n".join(e.split("\n")[:1] + e.split("\n")[8:]), None),
+            ("w.wea:9: an hour has at least 16 fields", "\n".join(["LOCATION" + e.split("LOCATION")[1].split("\n")[0], "X", *e.split("\n")[1:]]), None),
+            ("w.wea:1: the time zone must be from -15 to 15", e.replace(",1.0,100", ",60,100"), None), ("w.wea:20: the direct normal irradiance must be a number, not \"-\"", epw(irradiances="-,-"), None),
+            ("w.wea:9: the hour must be from 1 to 24", e.replace("2000,6,1,1,60", "2000,6,1,0,60"), None), ("w.wea:1: LOCATION has 2 fields", e.replace("LOCATION,P", 'LOCATION,"P'), None),
+            ("co.f: has no header with FORMAT=ascii", good, b""), ("co.f: has no header", good, gzip.compress(coefficients())), ("co.f: has 0 bytes", good, coefficients(values=0)),
+            ("co.f: has a coefficient that is not a finite", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"nan", 1)),
+            ("co.f: has a coefficient that is not a number: b'1?0'", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"1_0", 1)),
+            ("co.f: its header lacks NROWS=, a whole number", good, coefficients(NROWS="-1")), ("co.f: has 1 bins", good, coefficients(NROWS="146", NCOLS="1")),
+            ("co.f: has 1752 bytes of coefficients, not 1751999998248", good, coefficients(NROWS="999999999")), ("co.f: its BigEndian= must be 0 or 1", good, coefficients(header="BigEndian=2\n")),
+            ("co.f: has a sensor whose coefficients add up to 1.46e+03, more than pi", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"10")),
+            ("co.f: has 8760 bins", good, coefficients(NCOLS="8760", values=8760 * 3)),
+        ):  # fmt: skip
+            with self.subTest(said):
+                self.refuse(f"rsphere-annual: fatal - {said}", weather, of_sky)
+        for said, weather, of_sky in (
+            ("the meridian of the time zone, 1 degrees, is at no quarter of an hour", good.replace("time_zone -15", "time_zone -1"), None),
+            ("no hour has more than 5% of the irradiance outside", hours(0.3, 0.15), None), ("11 of 11 hours with a high sun have more irradiance", hours(1080, 540), None),
+            ("11 of 11 hours with a high sun have more irradiance", hours(50, 1400), None), ("co.f: 1 of 1 sensors have coefficients of 0 alone", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"0")),
+        ):  # fmt: skip
+            with self.subTest(said):
+                self.assertIn(said, self.light(weather, of_sky)[1])
+        for weather in (b"\xef\xbb\xbf" + good.encode(), good.replace(" ", "\t"), good.replace("\n", "\r\n"), good.replace("place X", "place New York")):
+            self.assertEqual(self.light(weather), self.light(good))
+        self.assertEqual(self.light(WEA + "2 29 12.5 300 100\n")[1].count("\n"), 1, "one hour")
 
     def test_any_word_replaced(self):
         """A line of fault with its place, or numbers; never a traceback, and never silence about what was not understood."""

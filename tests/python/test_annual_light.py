@@ -327,10 +327,24 @@ class Closed(InAFolder):
         self.assertRegex(out, r"Interrupted after [0-9]+ estimates\.\n[0-9]+ independent estimates")
         self.assertTrue(os.path.exists(os.path.join(self.folder.name, "annual/page.html")))
 
+    def test_a_scene_with_a_sky_or_a_sun(self):
+        """They were hidden by those of the weather without a word. A fault in a file of blinds has its place."""
+        for sky in ("void glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 1 180\n", "void glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 -1 180\n"):
+            text = BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n" + sky
+            with self.assertRaisesRegex(Fault, "the scene has a sky"):
+                check_sky(self.scene(text), read_polygons(self.scene(text)), self.folder.name)
+        check_sky(self.scene(self.BOX), read_polygons(self.scene(self.BOX)), self.folder.name)
+        sensors, blinds = [[2, 1, 0.8, 0, 0, 1]], self.file("void plastic x 0 0 5 1 1\n", "blinds.rad")
+        group = group_of("black=" + blinds, read_polygons(self.scene(self.BOX)), np.array(sensors)[:, :3])
+        with self.assertRaisesRegex(Exception, 'blinds.rad:1: text ends within plastic "x"'):
+            self.light(self.BOX, sensors, list(clear_days([(3, 21)])), [group])
+
     def test_shades_that_are_not_there(self):
+        self.file("# nothing\n", "empty.rad")
         for words, said in ((["--shades", "pain"], 'no polygon with the modifier "pain"; it has black'), (["--on", "flor"], 'no polygon or modifier "flor"'),
                             (["--shades", "black=2"], "what is behind = must be from 0 to 0.5"), (["--sensors", "none"], "none: cannot be read"),
-                            (["--shades", "black=blinds.rad"], "blinds.rad: cannot be read")):
+                            (["--shades", "black=blinds.rad"], "blinds.rad: cannot be read"), (["--shades", "black=empty.rad"], "empty.rad: has nothing that could be lowered"),
+                            (["--shades", "black", "--shades", "sill"], "--shades sill: has windows that --shades black has already")):
             with self.command(*words, stderr=subprocess.PIPE) as run:
                 out, err = run.communicate()
             self.assertEqual((run.returncode, out, err.count("\n")), (1, "", 1), err)

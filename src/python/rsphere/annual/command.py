@@ -1,4 +1,5 @@
 """From a scene and a weather file to verdicts on daylight."""
+import math
 import os
 import sys
 import tempfile
@@ -18,13 +19,17 @@ from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients,
 from .matrix import read_coefficients
 from .report import Report
 from .sensors import read_sensors, sensors_on
-from .shades import group_of
+from .shades import groups_of
+from .sky import SOLAR_CONSTANT
+from .sun import sun_position
 from .verdicts import FROM, UNTIL, verdicts_of
 from .weather import read_weather
 
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
 LATE = 0.05  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
 MOST_ESTIMATES = 512
+QUARTER_HOUR = 3.75  # degrees of longitude
+HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
 
 TEXT = """\\
 Coefficients may also follow the weather alone: rsphere-annual town.epw sky.mtx.
@@ -68,6 +73,9 @@ def arguments():
         (given.weather, given.coefficients), given.scene = given.scene, []
     if not given.weather:
         raise Fault("needs --weather FILE, the hours of a year: .epw or .wea")
+    for name in ("sensors", "sunlight", "eyes", "coefficients"):
+        if getattr(given, name) == "":
+            raise Fault(f"--{name} has no name")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     given.day = outside.day_of(given.day)
@@ -77,7 +85,7 @@ def arguments():
         raise Fault("--glare needs --eyes FILE")
     if given.on and given.sensors:
         raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
-    given.on = given.on or ([] if given.sensors or given.coefficients else ["floor"])
+    given.on = list(dict.fromkeys(given.on or [])) or ([] if given.sensors or given.coefficients else ["floor"])
     return given
 
 
@@ -99,6 +107,19 @@ def check_weather(file, weather, dark_sun):
     late = direct[dark_sun].sum() / max(direct.sum(), 1e-9)
     if late > LATE:
         warn(file, f"{late:.0%} of the direct light is at hours without a sun or without diffuse light; are its latitude, longitude and time zone right?")
+
+
+def check_units(file, weather):
+    """Warns of irradiances that are too small or too large for W/m2, and of a time zone in hours."""
+    if abs(weather.place[2] / QUARTER_HOUR - round(weather.place[2] / QUARTER_HOUR)) > 1e-6:
+        warn(file, f"the meridian of the time zone, {weather.place[2]:g} degrees, is at no quarter of an hour (3.75 degrees); is it in hours?")
+    rows = [(row, sun_position(*row[:3], *weather.place)[0]) for row in weather.hours if row[3] + row[4] > 0]
+    above = [(row[3] * math.sin(a) + row[4]) / (SOLAR_CONSTANT * math.sin(a)) for row, a in rows if a > HIGH]
+    beyond = np.array([share > 1 for share in above])
+    if len(above) >= FEW and beyond.mean() > SELDOM:
+        warn(file, f"{beyond.sum()} of {len(above)} hours with a high sun have more irradiance than there is outside of the atmosphere; is it in W/m2?")
+    if len(above) >= FEW and max(above) < DARK:
+        warn(file, f"no hour has more than {DARK:.0%} of the irradiance outside of the atmosphere; is it in W/m2?")
 
 
 def estimates(light, given):
@@ -143,6 +164,8 @@ def add_outside(given, polygons, sensors, weights, place, report):
         PROGRESS.begin("View out", len(sensors))
         view = outside.View(scene, sensors[:, :3] + [0, 0, given.view - given.height], given.landscape, given.ground, through)
         lacks = [f"No surface is landscape (--landscape {', '.join(given.landscape) or 'NAME'}): no view is met."] * (not view.solid_angles[:, 1].any())
+        for name in view.unseen(given.landscape + given.ground[1:]):
+            warn("--landscape and --ground", f"no eye sees {name}")
         report.add(view.verdicts(weights), view.quantities(), *lacks)
 
 
@@ -156,7 +179,7 @@ def light_of_scene(given, weather, polygons, notes):
     eyes = read_sensors(given.eyes, "an eye") if given.eyes else np.zeros((0, 6))
     if given.glare and (np.hypot(eyes[:, 3], eyes[:, 4]) < 1e-6 * np.abs(eyes[:, 5])).any():
         raise fault(given.eyes, None, "has a gaze straight up or down, where glare is not defined")
-    groups = [group_of(word, polygons, sensors[:, :3]) for word in given.shades]
+    groups = groups_of(given.shades, polygons, sensors[:, :3])
     with tempfile.TemporaryDirectory() as folder:
         check_sky(given.scene, polygons, folder)
         light = Light(given.scene, sensors, weights, weather, groups, folder,
@@ -189,6 +212,7 @@ def main():
         raise fault(given.weather, None, f"has no hour from {FROM} to {UNTIL} h")
     if not any(row[4] for row in weather.hours):
         raise fault(given.weather, None, "has no hour with diffuse light")
+    check_units(given.weather, weather)
     try:
         os.makedirs(given.output, exist_ok=True)
     except OSError as error:
@@ -198,6 +222,9 @@ def main():
         coefficients, factor = read_coefficients(given.coefficients)
         year, dark_sun = light_of_coefficients(coefficients, factor, weather)
         check_weather(given.weather, weather, dark_sun)
+        dark = int((coefficients.sum(axis=1) == 0).sum())
+        if dark:
+            warn(given.coefficients, f"{dark} of {len(coefficients)} sensors have coefficients of 0 alone")
         notes.append("The sun is spread over patches of the sky: there is no ASE, no shade is lowered, and errors are not known.")
         lux_hours = year.lux.mean(axis=0)[:, year.occupied()].sum(axis=1).mean()
         notes.append(f"Light from {FROM} to {UNTIL} h: {lux_hours / 1e6:.3f} Mlx h, mean of the sensors.")

@@ -6,6 +6,7 @@
 - Shades: each group of windows in either state, while all other groups are closed; what passes through closed ones is none.
 """
 import os
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,12 +86,17 @@ def check_sky(files, polygons, folder):
     """Raises Fault if the scene has a sky: it would hide the one of the weather."""
     corners = np.concatenate([p.corners for p in polygons])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    above = [[*(low + high)[:2] / 2, high[2] + 0.01 * np.linalg.norm(high - low), 0, 0, 1]]
+    away = 0.01 * np.linalg.norm(high - low)
+    above = [[*(low + high)[:2] / 2, high[2] + away, 0, 0, 1]]
     path = os.path.join(folder, "sky.rad")
     with open(path, "w", encoding="ascii") as stream:
         stream.write(SKY)
     seen = rsphere.Scene([path, *files]).contributions(above, of=["rsphere_sky"], irradiance_at_origin=True, coefficients=True, ambient_bounces=1)
-    if not np.allclose(seen.value, np.pi, rtol=0.1):
+    rays = [[*(low + high)[:2] / 2, z, dx, dy, dz] for z, dz in ((high[2] + away, 1), (low[2] - away, -1)) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # there may be no light sources
+        own = rsphere.Scene(files).trace(rays, outputs="vL", ambient_bounces=0)
+    if not np.allclose(seen.value, np.pi, rtol=0.1) or (own.value.any(axis=1) & (own.first_length > 1e9)).any():
         raise Fault("the scene has a sky, or something above all of its polygons: leave it out; the sky is that of the weather")
 
 
@@ -174,21 +180,21 @@ class Light:
         self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
         self.open_at_eyes = None  # the same, shades up
 
-        def made(name, *texts):
+        def made(name, *texts, blinds=()):
             PROGRESS.advance()
-            return Pass(files, "".join(texts), folder, name, sensors, np.array(eyes), to_sun, reflected_from, settings)
+            return Pass([*blinds, *files], "".join(texts), folder, name, sensors, np.array(eyes), to_sun, reflected_from, settings)
 
         self.groups, n = groups, len(groups)
         PROGRESS.begin("Direct sun", max(1, 2 * n) + (n > 1))
         self.base, self.passes = None, [[made("open")]]
         if n == 1:
-            self.passes = [[self.passes[0][0], made("lowered", groups[0].lowered)]]
+            self.passes = [[self.passes[0][0], made("lowered", groups[0].lowered, blinds=groups[0].files)]]
         elif n:
             closed = ["".join(g.closed for g in groups if g is not group) for group in groups]
             self.base = made("closed", *(g.closed for g in groups))
             if self.base.sky(0).sum() < NEGLIGIBLE * self.passes[0][0].sky(0).sum():
                 self.base = None  # there are no other windows
-            self.passes = [[made(f"open{i}", closed[i]), made(f"lowered{i}", closed[i], g.lowered)] for i, g in enumerate(groups)]
+            self.passes = [[made(f"open{i}", closed[i]), made(f"lowered{i}", closed[i], g.lowered, blinds=g.files)] for i, g in enumerate(groups)]
         direct = np.array([[self.direct_of(p) for p in states] for states in self.passes])
         self.direct = direct
         up = direct[:, UP].sum(axis=0) + (self.direct_of(self.base) if self.base else 0)

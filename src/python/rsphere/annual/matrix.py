@@ -7,6 +7,7 @@ from ..fault import fault
 from .light import VISIBLE
 
 FORMATS = {b"ascii": None, b"float": "f4", b"double": "f8"}
+LARGEST_SUM = 1.1 * math.pi  # the sum of a sensor without noise is at most pi
 HEADER = "coefficients are the output of rcontrib -y N or of rfluxmtx, with its header"
 
 
@@ -24,12 +25,14 @@ def numbers_of(path, words, data, count):
     kind = FORMATS[words[b"FORMAT"]]
     if kind is None:
         try:
-            numbers = np.array(data.split(), float)
+            numbers = np.array(data.replace(b"_", b"?").split(), float)  # float() reads 1_000
         except ValueError as error:
-            raise fault(path, None, f"has a coefficient that is not a number: {error}") from None
+            raise fault(path, None, f"has a coefficient that is not a number: {str(error).partition(': ')[2]}") from None
         if len(numbers) != count:
             raise fault(path, None, f"has {len(numbers)} coefficients, not {count}")
         return numbers
+    if words.get(b"BigEndian", b"0") not in (b"0", b"1"):
+        raise fault(path, None, "its BigEndian= must be 0 or 1")
     size = np.dtype(kind).itemsize * count
     if len(data) != size:
         raise fault(path, None, f"has {len(data)} bytes of coefficients, not {size}")
@@ -60,4 +63,8 @@ def read_coefficients(path):
         raise fault(path, None, "has a coefficient that is not a finite number")
     if (coefficients < 0).any():
         raise fault(path, None, "has a coefficient below 0")
-    return coefficients @ (VISIBLE if channels == 3 else np.ones(1)), factor
+    visible = coefficients @ (VISIBLE if channels == 3 else np.ones(1))
+    most = visible.sum(axis=1).max()
+    if most > LARGEST_SUM:
+        raise fault(path, None, f"has a sensor whose coefficients add up to {most:.3g}, more than pi: they must be irradiances for a radiance of 1 (rcontrib -I)")
+    return visible, factor

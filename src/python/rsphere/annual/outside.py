@@ -152,9 +152,11 @@ class View:
         turn = 2 * np.pi * azimuth / AZIMUTHS
         directions = np.stack([np.cos(altitude) * np.sin(turn), np.cos(altitude) * np.cos(turn), np.sin(altitude)], axis=1)
         cell = 2 * np.pi / AZIMUTHS * np.radians(2 * STEEPEST) / ALTITUDES * np.cos(altitude)
+        self.names = set()  # of all that is seen
         self.solid_angles, self.angle, self.distance = np.zeros((len(eyes), len(LAYERS))), np.zeros(len(eyes)), np.zeros(len(eyes))
         for i, eye in enumerate(eyes):
             names, length, first = seen_along(scene, np.hstack([np.tile(eye, (len(directions), 1)), directions]), through)
+            self.names.update(*(set(n) for n in names))
             leaves = np.isinf(length)
             layers = [leaves & (altitude > 0), np.isin(names, landscape).any(axis=0), (leaves & (altitude <= 0)) | np.isin(names, ground).any(axis=0)]
             self.solid_angles[i] = [cell[layer].sum() for layer in layers]
@@ -165,6 +167,9 @@ class View:
                 beyond = ((length - first) * np.cos(altitude)).reshape(outside.shape)[outside.any(axis=1), level]
                 self.distance[i] = np.median(beyond)
             PROGRESS.advance()
+
+    def unseen(self, names):
+        return [name for name in names if name not in self.names]
 
     def verdicts(self, weights):
         seen = self.solid_angles > 0

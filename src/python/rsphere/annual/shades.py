@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 
-from ..fault import NUMBER, Fault, lines_of, number
+from ..fault import NUMBER, Fault, fault, lines_of, number
 from .verdicts import SUNNY
 
 TRANSMITTANCE, REFLECTANCE = 0.02, 0.5  # of lowered blinds (the first by LM-83), both diffuse
@@ -20,7 +20,9 @@ class Group:
     """Windows of one modifier."""
 
     name: str
+    windows: list  # of polygons
     lowered: str  # scene text of the blinds
+    files: list  # or their files
     closed: str  # scene text that closes the windows
 
 
@@ -44,14 +46,27 @@ def group_of(word, polygons, sensors):
     if not windows:
         known = ", ".join(sorted({p.modifier for p in polygons})[:8])
         raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
+    lowered, files = "", []
     if state and not NUMBER.fullmatch(state):
-        lowered = "\n".join(lines_of(state)) + "\n"
+        files = [state]
+        if not any(line.strip() and not line.lstrip().startswith("#") for line in lines_of(state)):
+            raise fault(state, None, "has nothing that could be lowered")
     else:
         t = number(state, "--shades " + word, None, "what is behind =", 0, 0.5) if state else TRANSMITTANCE
         color = REFLECTANCE + t
         lowered = covers(windows, sensors, f"void trans rsphere_blind 0 0 7 {color} {color} {color} 0 0 {t / color:.9g} 0", "rsphere_blind")
     closed = covers(windows, sensors, f"void plastic rsphere_closed 0 0 5 {PANE} {PANE} {PANE} 0 0", "rsphere_closed")
-    return Group(name, lowered, closed)
+    return Group(name, windows, lowered, files, closed)
+
+
+def groups_of(words, polygons, sensors):
+    """The Groups of all --shades. No window may be in two of them: each is closed while the light of the others is computed."""
+    groups = [group_of(word, polygons, sensors) for word in words]
+    for i, group in enumerate(groups):
+        for other in groups[:i]:
+            if any(a is b for a in group.windows for b in other.windows):
+                raise Fault(f"--shades {group.name}: has windows that --shades {other.name} has already")
+    return groups
 
 
 def states_by_rule(direct, means, weights):

@@ -47,7 +47,7 @@ class Year:
         return chosen
 
     def daylit_hours(self):
-        return int(DAYLIT * self.all_hours)
+        return max(1, int(DAYLIT * self.all_hours))
 
 
 @dataclass

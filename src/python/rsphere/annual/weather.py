@@ -7,7 +7,9 @@ from ..fault import fault, lines_of, number, whole
 from .sun import MONTHS
 
 LARGEST_IRRADIANCE = 1500  # W/m2; the sun has at most 1415 outside of the atmosphere, in January
+SHORTEST = 0.9  # h, between rows
 MISSING = re.compile(r" *9999\.?0* *")  # instead of an irradiance of an .epw
+HEADER = 8  # lines of an .epw before the first hour
 WEA_PLACE = (("latitude", 1), ("longitude", -1), ("time_zone", -1))  # and the degrees north or east that 1 is
 WEA_HEADER = ("place", *(name for name, _ in WEA_PLACE), "site_elevation", "weather_data_file_units")
 
@@ -32,6 +34,8 @@ def add_hour(hours, file, line, row):
     """Adds a row that must be later than the last."""
     if hours and row[:3] <= hours[-1][:3]:
         raise fault(file, line, "the hour is not after the one before it; a file has one row for each hour of one year, in their order")
+    if hours and row[:2] == hours[-1][:2] and row[2] - hours[-1][2] < SHORTEST:
+        raise fault(file, line, f"is {row[2] - hours[-1][2]:.2g} h after the row before it; each row must be an hour")
     hours.append(row)
 
 
@@ -48,7 +52,10 @@ def read_epw(file, lines):
     if len(place) < 9:
         raise fault(file, 1, f"LOCATION has {len(place)} fields instead of 10")
     hours, missing = [], 0
-    for line, text in enumerate(lines[8:], 9):
+    early = next((line for line, text in enumerate(lines[1:HEADER], 2) if text[:1].isdigit()), None)
+    if early:
+        raise fault(file, early, f"is an hour, but an .epw has {HEADER} lines before its first hour")
+    for line, text in enumerate(lines[HEADER:], HEADER + 1):
         row = next(csv.reader([text]), [])
         if row and len(row) < 16:
             raise fault(file, line, f"an hour has at least 16 fields, up to the diffuse horizontal irradiance, not {len(row)}")
@@ -63,6 +70,8 @@ def read_wea(file, lines):
     header, hours = {}, []
     for line, words in enumerate((text.split() for text in lines), 1):
         if len(words) > 1 and words[0] in WEA_HEADER and not hours:
+            if words[0] in header:
+                raise fault(file, line, f"{words[0]} is in line {header[words[0]][1]} already")
             header[words[0]] = words[1], line
         elif words:
             lacks = [name for name in WEA_HEADER if name not in header]
