@@ -10,6 +10,7 @@ import xml.dom.minidom
 import numpy as np
 
 from rsphere.annual.light import Light, Settings, SunGrid, check_sky
+from rsphere.annual.sensors import draw_points, scene_files
 from rsphere.annual.shades import ALLOWED, LOWERED, TRANSMITTANCE, UP, group_of, states_by_rule
 from rsphere.annual.sun import MONTHS, sun_position
 from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdicts_of
@@ -349,6 +350,33 @@ class Closed(InAFolder):
                 out, err = run.communicate()
             self.assertEqual((run.returncode, out, err.count("\n")), (1, "", 1), err)
             self.assertIn(said, err)
+
+
+class Files(InAFolder):
+    def test_octrees(self):
+        """An octree stands for the files that it was made of; a frozen one has none."""
+        def octree(*names, head=b"#?RADIANCE\noconv a.rad\nFORMAT=Radiance_octree\n\n"):
+            return self.file(head + b"\x01\x1f-1\0-1\x00-1\x002\0" + b"".join(n + b"\0" for n in names) + b"\0\0\0\0\x27", "room.oct")
+        self.assertEqual(scene_files(octree(b"a.rad", b"!xform b.rad")), ["a.rad", "!xform b.rad"])
+        with self.assertRaisesRegex(Fault, "room.oct: is a frozen octree, to which no sky can be added: give the scene files"):
+            scene_files(octree())
+        with self.assertRaisesRegex(Fault, "is a frozen octree"):
+            scene_files(self.file(b"#?RADIANCE\nFORMAT=Radiance_octree\n\n\x01\x1f", "cut.oct"))
+        for path in (self.file(BLACK), octree(b"a.rad", head=b"#?RADIANCE\nFORMAT=other\n\n"), "none.oct", "!xform a.rad"):
+            self.assertEqual(scene_files(path), [path])
+
+    def test_plan_of_sensors(self):
+        """A circle and a number for each sensor, wherever they are; also for one alone and for two at one place."""
+        polygons = read_polygons([self.file(Closed.BOX, "room.rad")])
+        for places in ([[1, 1, 1], [2, 1, 1], [2, 3, 1.5]], [[1, 1, 1]], [[1, 1, 1], [1, 1, 1]]):
+            path = os.path.join(self.folder.name, "p.svg")
+            sensors = np.hstack([np.array(places, float), np.tile([0, 0, 1.0], (len(places), 1))])
+            svg = draw_points(sensors, polygons, np.linspace(0, 100, len(places)), "%", "DA < 300 lx", path)
+            document = xml.dom.minidom.parseString(svg)
+            self.assertEqual(len(document.getElementsByTagName("circle")), len(places))
+            self.assertEqual([t.firstChild.data for t in document.getElementsByTagName("text")][0], "DA < 300 lx")
+            self.assertEqual(len(document.getElementsByTagName("polygon")), 1, "the floor")
+            self.assertNotRegex(svg, '[",( >]nan')
 
 
 class Grid(unittest.TestCase):

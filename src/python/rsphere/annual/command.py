@@ -18,7 +18,7 @@ from .glare import Glare
 from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
 from .report import Report
-from .sensors import read_sensors, sensors_on
+from .sensors import read_sensors, scene_files, sensors_on
 from .shades import groups_of
 from .sky import SOLAR_CONSTANT
 from .sun import sun_position
@@ -217,7 +217,7 @@ def main():
         os.makedirs(given.output, exist_ok=True)
     except OSError as error:
         raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
-    notes = []
+    notes, polygons = [], []
     if given.coefficients:
         coefficients, factor = read_coefficients(given.coefficients)
         year, dark_sun = light_of_coefficients(coefficients, factor, weather)
@@ -230,6 +230,7 @@ def main():
         notes.append(f"Light from {FROM} to {UNTIL} h: {lux_hours / 1e6:.3f} Mlx h, mean of the sensors.")
         sensors, planes = np.zeros((len(coefficients), 0)), []
     else:
+        given.scene = [file for path in given.scene for file in scene_files(path)]
         polygons = read_polygons(given.scene)
         light, sensors, planes, eyes, glare = light_of_scene(given, weather, polygons, notes)
         year = light.year
@@ -245,6 +246,6 @@ def main():
     report.write_places(given.output, "sensors.txt", sensors[:, :3], report.quantities)
     if report.eyes:
         report.write_places(given.output, "eyes.txt", *report.eyes)
-    report.write_page(given, planes)
+    report.write_page(given, planes, sensors, polygons)
     print(f"{os.path.join(given.output, 'page.html')}: the page")
     return 0

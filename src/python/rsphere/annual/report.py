@@ -6,7 +6,7 @@ import numpy as np
 
 from ..fault import fault
 from ..page import Page, table
-from .sensors import draw
+from .sensors import draw, draw_points
 from .verdicts import quantities_of
 
 HEAD = ["rule", "asked", "has", "+-", "met", "unsure sensors"]
@@ -90,8 +90,8 @@ class Report:
             lines.append("\t".join([*(f"{x:.9g}" for x in place), *cells]))
         self.write(folder, file, "\n".join(lines) + "\n")
 
-    def write_page(self, given, planes):
-        """planes: the names of the work planes, and the indexes of their sensors."""
+    def write_page(self, given, planes, sensors, polygons):
+        """planes: the names of the work planes, and the indexes of their sensors; none of sensors of a file."""
         page = Page(given.title or "Daylight of a year")
         for note in self.notes:
             page.note(note)
@@ -104,11 +104,13 @@ class Report:
             page.add(table(self.windows[0], self.windows[1:], 2))
         page.heading("Means")
         page.add(table(["quantity", "mean", "+-", "of"], list(self.means())))
-        for name, chosen in planes:
-            for quantity, file, hours in DRAWN:
-                if quantity not in self.quantities:
-                    continue
-                values, _, unit = self.quantities[quantity]
+        for quantity, file, hours in DRAWN if len(polygons) else ():
+            if quantity not in self.quantities:
+                continue
+            values, _, unit = self.quantities[quantity]
+            values = values * (100 if unit == "%" else 1)
+            for name, chosen in planes or [("sensors", slice(None))]:
                 path = os.path.join(given.output, f"{file}_{name}.svg" if len(planes) > 1 else f"{file}.svg")
-                page.figure(draw(given, name, values[chosen] * (100 if unit == "%" else 1), unit, f"{quantity}{hours} ({unit}): {name}", path))
+                title = f"{quantity}{hours} ({unit}): {name}"
+                page.figure(draw(given, name, values[chosen], unit, title, path) if planes else draw_points(sensors, polygons, values, unit, title, path))
         self.write(given.output, "page.html", page.html())

@@ -1,6 +1,7 @@
-"""Where light is computed: sensors of a file, or a grid over work planes of the scene."""
+"""Where light is computed: sensors of a file, or a grid over work planes of the scene; and the files of the scene, if it is an octree."""
 import os
 import subprocess
+from html import escape
 
 import numpy as np
 
@@ -9,6 +10,30 @@ from ..fault import Fault, fault, lines_of, number
 from ..layout.room import polygons_named
 
 WORDS = ("x", "y", "z", "the direction along x", "the direction along y", "the direction along z")
+
+
+MOST_OF_OCTREE = 1 << 16  # bytes, header and names
+OCTREE = b"FORMAT=Radiance_octree"
+CUBE = 4  # its origin and size, as strings
+COLORS = np.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]])  # from low to high, readable without color vision
+WIDE, EDGE = 700, 40  # of a plan, pixels
+SAMPLE = 200  # sensors by which their spacing is judged
+
+
+def scene_files(path):
+    """The scene files that an octree of oconv was made of, or the file itself if it is no octree."""
+    try:
+        with open(path, "rb") as stream:
+            header, _, data = stream.read(MOST_OF_OCTREE).partition(b"\n\n")
+    except OSError:
+        return [path]  # readers of scenes say what is wrong
+    if not header.startswith(b"#?") or OCTREE not in header:
+        return [path]
+    names = data[2:].split(b"\0")[CUBE:]  # behind two bytes
+    files = [os.fsdecode(name) for name in names[: names.index(b"")]] if b"" in names else []
+    if not files:
+        raise fault(path, None, "is a frozen octree, to which no sky can be added: give the scene files that it was made of")
+    return files
 
 
 def read_sensors(path, kind="a sensor"):
@@ -60,3 +85,37 @@ def draw(given, name, values, unit, title, path):
         raise Fault(run.stderr.strip().split("\n")[-1].removeprefix("plan: fatal - "))
     with open(path, encoding="utf-8", errors="replace") as stream:
         return stream.read()
+
+
+def draw_points(sensors, polygons, values, unit, title, path):
+    """A plan of values of sensors that are in no grid, as SVG: seen from above, with the outlines of floors around them."""
+    low, high = sensors[:, :2].min(axis=0), sensors[:, :2].max(axis=0)
+    some = sensors[:: max(1, len(sensors) // SAMPLE), :2]
+    apart = np.linalg.norm(some[:, None] - sensors[None, :, :2], axis=2)
+    apart = np.where(apart > 0, apart, np.inf).min(axis=1, initial=np.inf)
+    spacing = float(np.median(apart[np.isfinite(apart)])) if np.isfinite(apart).any() else 1.0
+    low, high = low - spacing, high + spacing
+    scale = (WIDE - 2 * EDGE) / max(high - low)
+    at = lambda p: np.stack([EDGE + (p[..., 0] - low[0]) * scale, EDGE + (high[1] - p[..., 1]) * scale], axis=-1)  # noqa: E731
+    width, tall = at(np.array([high[0], low[1]])) + EDGE
+    most = 100 if unit == "%" else max(values.max(), 1e-9)
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {tall:.0f}" font-family="sans-serif">',
+             '<rect width="100%" height="100%" fill="white"/>', f'<text x="{EDGE}" y="{EDGE / 2}" font-size="14">{escape(title)}</text>']
+    for p in polygons:
+        inside = (p.corners[:, :2].min(axis=0) < high).all() and (p.corners[:, :2].max(axis=0) > low).all()
+        if inside and p.vector()[2] > 0.99 * np.linalg.norm(p.vector()) and p.corners[0, 2] <= sensors[:, 2].max():
+            corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in at(np.clip(p.corners[:, :2], low, high)))
+            lines.append(f'<polygon points="{corners}" fill="none" stroke="#888"/>')
+    for place, value in zip(at(sensors[:, :2]), values):
+        part = np.clip(value / most, 0, 1) * (len(COLORS) - 1)
+        red, green, blue = (np.interp(part, range(len(COLORS)), COLORS[:, i]) for i in range(3))
+        lines.append(f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="{0.45 * spacing * scale:.1f}" fill="rgb({red:.0f},{green:.0f},{blue:.0f})"/>')
+        lines.append(f'<text x="{place[0]:.1f}" y="{place[1]:.1f}" font-size="{0.35 * spacing * scale:.1f}" text-anchor="middle" dominant-baseline="central" '
+                     f'fill="{"#000" if part > 2.5 else "#fff"}">{value:.0f}</text>')
+    svg = "\n".join(lines) + "\n</svg>\n"
+    try:
+        with open(path, "w", encoding="utf-8", errors="replace") as stream:
+            stream.write(svg)
+    except OSError as error:
+        raise fault(path, None, f"cannot be written: {error.strerror}") from None
+    return svg
