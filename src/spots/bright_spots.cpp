@@ -134,6 +134,30 @@ std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, co
   return found;
 }
 
+// The mean square of the distances across the rooms that receive the light of some particles (square world
+// units); 0 if there are too few. Measured at the ends of random walks, which spread all over the rooms:
+// where the particles are, a shaft may be much narrower.
+double BrightSpots::meanSquareAcrossRooms(std::span<const Particle> particles, const Tracer& tracer) {
+  double sum = 0;
+  size_t count = 0;
+  Random random(2);
+  for (size_t i = 0; i < particles.size(); i += tuning::BrightSpots::kForEachWalk) {
+    V3d point = particles[i].point, normal = particles[i].normal;
+    Hit hit;
+    for (int k = 0; k < tuning::BrightSpots::kStepsOfWalk; ++k) {
+      const V3d direction = sentFrom(normal, random);
+      hit = tracer.nearest(point, direction, kFarAway, hit.surface);
+      if (hit.surface == kNone) break;
+      point += hit.distance * direction;
+      normal = hit.cosine < 0 ? -hit.normal : hit.normal;
+    }
+    if (hit.surface == kNone) continue;
+    sum += hit.distance * hit.distance;
+    ++count;
+  }
+  return count >= tuning::BrightSpots::kFewest ? sum / static_cast<double>(count) : 0;
+}
+
 BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
                          const Openings* openings)
     : samePlace_(scene.samePlace) {
@@ -141,12 +165,9 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
   spots_.origin = tracer.bounds().center();
   if (openings) {
     std::vector<Particle> inside = particlesThrough(*openings, scene, tracer, lights);
-    std::vector<double> free;
-    for (const Particle& p : inside) free.push_back(p.free);
-    if (free.size() >= tuning::BrightSpots::kFewest) {
-      const auto middle = free.begin() + static_cast<ptrdiff_t>(free.size() / 2);
-      std::nth_element(free.begin(), middle, free.end());
-      for (const Node& node : find(inside, tuning::BrightSpots::kRoomSurface * *middle * *middle,
+    const double squared = meanSquareAcrossRooms(inside, tracer);
+    if (squared > 0) {
+      for (const Node& node : find(inside, tuning::BrightSpots::kRoomSurface * squared,
                                    tuning::Caps::kAimed / 2, tuning::BrightSpots::kBrighter / 2, 1))
         sunlit_.push_back(node.sunlit());
     }

@@ -73,6 +73,7 @@ class BrightSpots {
                                          const LightSources& lights) const;
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,
                                          const V3d& direction, double power, Random& random);
+  static double meanSquareAcrossRooms(std::span<const Particle> particles, const Tracer& tracer);
   // Finds spots, keeps them, and returns the groups of particles that form them. most: cap on the number of
   // spots. area: of the surfaces that receive the light (square world units). brighter, leastWorth: the
   // thresholds for a spot's brightness and for the worth of all spots; see tuning::BrightSpots::kBrighter.

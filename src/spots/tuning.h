@@ -42,9 +42,13 @@ struct BrightSpots {
   // At that distance, the formula for a small surface makes a disk 1.5 times as bright as it is: it uses 1 /
   // d^2 instead of 1 / (d^2 + r^2).
   static constexpr float kApart = 2;
-  // Surface area of a room, divided by the square of the mean distance across it. The mean chord of a convex
-  // body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m, and the surface area is 20 times its square.
-  static constexpr double kRoomSurface = 20;
+  // Surface area of a room, divided by the mean square of the distances across it. The mean chord of a convex
+  // body is 4 V/S. In a room of 10 x 7 x 3 m it is 3.5 m; the mean square is 17 m2, and the surface area 14
+  // times as large.
+  static constexpr double kRoomSurface = 14;
+  // One in this number of particles begins a random walk of this many steps.
+  static constexpr size_t kForEachWalk = 16;
+  static constexpr int kStepsOfWalk = 8;
 };
 
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed (highlights.h,

@@ -175,6 +175,34 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
   EXPECT_EQ(aim.mean, 0);
 }
 
+// A wide room with a skylight at the top of a shaft, whose walls alone the low sun reaches. As they see
+// little but each other, they once seemed to be a whole room that is evenly lit, and rays were aimed at
+// nothing.
+TEST(BrightSpots, AreInTheShaftOfASkylight) {
+  const std::string text =
+      "void plastic white 0 0 5 .6 .6 .6 0 0\nvoid light bright 0 0 3 5e6 5e6 5e6\n"
+      "bright source sun 0 0 4 -.6 0 .5 .5\nvoid glow blue 0 0 4 3 3 3 0\nblue source sky 0 0 4 0 0 1 180\n"
+      "void glass clear 0 0 3 .9 .9 .9\n"
+      "white polygon floor 0 0 12 0 0 0 10 0 0 10 10 0 0 10 0\n"
+      "white polygon ceiling 0 0 30 0 0 3 0 10 3 10 10 3 10 0 3 0 0 3 5 5 3 6 5 3 6 6 3 5 6 3 5 5 3\n";
+  const auto wall = [](const char* name, double x1, double y1, double x2, double y2, double z1, double z2) {
+    return fmt::format("white polygon {0} 0 0 12 {1} {2} {5} {3} {4} {5} {3} {4} {6} {1} {2} {6}\n", name, x1,
+                       y1, x2, y2, z1, z2);
+  };
+  const std::string walls = wall("south", 0, 0, 10, 0, 0, 3) + wall("east", 10, 0, 10, 10, 0, 3) +
+                            wall("north", 10, 10, 0, 10, 0, 3) + wall("west", 0, 10, 0, 0, 0, 3) +
+                            wall("shaft_s", 5, 5, 6, 5, 3, 4.2) + wall("shaft_e", 6, 5, 6, 6, 3, 4.2) +
+                            wall("shaft_n", 6, 6, 5, 6, 3, 4.2) + wall("shaft_w", 5, 6, 5, 5, 3, 4.2) +
+                            "clear polygon pane 0 0 12 5 5 4.2 6 5 4.2 6 6 4.2 5 6 4.2\n";
+  const Traced room(text + walls, unbiased(1));
+  const Openings openings = openingsOf(text + walls);
+  ASSERT_FALSE(openings.empty());
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  BrightSpots::Aim aim;
+  spots.aim({V3d(4.8, 5.5, .8), V3d(0, 0, 1)}, aim);
+  EXPECT_GT(aim.mean, .5 * spots.usual());
+}
+
 TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
