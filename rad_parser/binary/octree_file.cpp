@@ -66,7 +66,7 @@ bool isOctree(std::string_view beginning, std::string_view name) {
     rest.remove_prefix(lineEnd == rest.npos ? rest.size() : lineEnd + 1);
   }
   if (format == kFormat) return true;
-  // Text may contain an empty line, but not these bytes after it.
+  // A text file may contain an empty line, but not the magic number of an octree after it.
   bool hasNumber = false;
   if (end != beginning.npos && beginning.size() >= end + 2) {
     const int number = static_cast<uint8_t>(beginning[end]) << 8 | static_cast<uint8_t>(beginning[end + 1]);

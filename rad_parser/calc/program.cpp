@@ -214,8 +214,8 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         const State::Cell* callerCells = state.cells_.data() + cellBase;
         State::Cell* cells = state.cells_.data() + cellTop;
         for (uint32_t k = 0; k < callee.parameters; ++k, arguments += 3) {
-          // The argument is a register with the value, or code that computes it in the caller's frame. If the
-          // caller has a cell for it, the value may have been computed since.
+          // An argument is a register that holds its value, or code that computes it in the caller's frame.
+          // If the caller keeps a cell for that code, the value may meanwhile be there.
           const bool isDone =
               arguments[1] == kDone || (arguments[2] != kNoCell && callerCells[arguments[2]].pc == kDone);
           cells[k] = {isDone ? kDone : arguments[1], base, cellBase};

@@ -12,7 +12,7 @@
 namespace rsphere::v1 {
 namespace {
 
-// Ends the words of the options, like a scene on a command line. No option accepts an empty word as a value.
+// An empty word, which ends the options as a scene does on a command line. No option takes one as its value.
 constexpr std::string_view kScene;
 
 class Words {

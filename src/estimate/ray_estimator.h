@@ -53,7 +53,7 @@ class RayEstimator {
     bool reached = true;  // whether this is within the accuracy
   };
   // Parameters: PathTracer::trace(). The request may have no observer. tracers: of this thread. checkStop is
-  // called between rounds; its exceptions pass.
+  // called between rounds; what it throws is passed on to the caller.
   Estimate estimate(std::vector<PathTracer>& tracers, const V3d& origin, const V3d& direction,
                     double farthest, uint64_t seed, PathRequest request = {},
                     const std::function<void()>& checkStop = {}) const;
@@ -62,7 +62,7 @@ class RayEstimator {
   // surface and a seed of its own. The sets of a half, those below kSets / 2 or the others, have as many rays
   // each.
   using Gather = FunctionRef<TracedRay(size_t set, int rays, uint64_t seed)>;
-  // The same for another value of the ray than its radiance: that of TracedRay::value, as `gather` sets it.
+  // The same for any quantity of the ray: `gather` puts it into TracedRay::value.
   Estimate estimate(const Gather& gather, uint64_t seed, const std::function<void()>& checkStop) const;
 
  private:

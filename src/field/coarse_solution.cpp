@@ -19,8 +19,8 @@ using Imath::V2d;
 
 namespace {
 
-// Cap on the bounces whose light is computed. The light of further ones falls from bounce to bounce by the
-// same factor, and follows from it.
+// Cap on the bounces whose light is computed. Later ones are extrapolated: their light falls by one factor
+// from bounce to bounce.
 constexpr int kMostComputed = 12;
 static_assert(kMostComputed >= 3);
 

@@ -51,7 +51,7 @@ SourceChoice::SourceChoice(const Scene& scene, const LightSources& lights) {
   }
 }
 
-// usual: the weight of the source without its reach and its cone.
+// usual: the weight of the source if it had neither reach nor cone.
 double SourceChoice::weightOf(const Special& special, const Near& near, const V3d& point, const V3d& front,
                               double usual) {
   if (special.distant)

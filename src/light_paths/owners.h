@@ -1,7 +1,8 @@
 #pragma once
 // Which method estimates a part of the light at the end of a ray from the eye, where paths from both ends are
 // used. Each part of the light of known sources that has met only known surfaces (plain_surfaces.h) has one
-// owner, so that none is lost or counted twice. All other light belongs to paths from the eye.
+// owner, so that none is lost or counted twice. All other light belongs to paths from the eye. In ray mode
+// there are no light paths, and all light belongs to paths from the eye.
 #include <cstdint>
 
 #include "rays/ray.h"
@@ -19,7 +20,7 @@ enum class LightPart : uint8_t {
   ofSources,     // of sources that shine on the end, reflected diffusely
   highlight,     // of these sources, in a rough highlight
   indirect,      // that arrives after at least one diffuse reflection, or straight through a portal
-  throughPortal  // from beyond a portal through which the ray leaves
+  throughPortal  // the light of `indirect` that comes straight, as a ray that leaves by the portal finds it
 };
 
 // The data of a ray on which its owners depend.

@@ -68,7 +68,8 @@ class VertexLight {
     Coefficient scale{1};                       // factor on the recorded contributions (sr)
     const OutdoorRadiance* outdoors = nullptr;  // the light beyond portals. REQUIRED if there are any
   };
-  // The mean radiance that arrives over the hemisphere of the place after at least one bounce (W/sr/m2).
+  // The mean radiance that arrives over the hemisphere of the place after at least one bounce, or
+  // straight through a portal (W/sr/m2).
   Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
  private:

@@ -48,8 +48,8 @@ class Blockers {
   // Keeps references to the scene and the tracer.
   Blockers(const Scene& scene, const Tracer& tracer);
 
-  // Points at most kBeside times margin() from a blocker that is perpendicular to an axis may be treated as
-  // being that far in front of it: see covers(). margin: world units.
+  // covers() may treat a point up to kBeside times margin() from a blocker that is perpendicular to an axis
+  // as if it were that far in front of it. margin(): world units.
   static constexpr double kBeside = 2.25;
   double margin() const { return margin_; }
   const Box3d& bounds() const { return tracer_.bounds(); }

@@ -24,7 +24,7 @@ struct Pictures {
   // source: chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
-  // One pixel in each square of this side (in pixels) gathers indirect light, with 32 rays: derived. It is
+  // Side of a square of pixels (in pixels), of which one gathers indirect light, with 32 rays: derived. It is
   // the smallest side with which pixels share light.
   static constexpr int kSharing = 2;
   // kSharing where shadow rays find all light (neither daylight nor glow), so that gathers are less noisy:

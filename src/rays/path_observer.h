@@ -42,7 +42,8 @@ struct PathRequest {
   // If not null, paths from both ends provide the indirect light of plain surfaces (plain_surfaces.h) that
   // the path hits before its first diffuse reflection. If the primary ray hits a plain surface directly or
   // through panes, the surface's diffuse reflection is left out, and so are shadow rays for its rough
-  // highlight. Null: plain surfaces are shaded like others.
+  // highlight. Farther along the path, light that has another owner is left out, too (owners.h). Null: plain
+  // surfaces are shaded like others.
   const VertexLight* vertexLight = nullptr;
 };
 

@@ -145,8 +145,8 @@ struct Illum {
   Color radiance;
   Alternate alternate;  // Kind::none, too, lets rays pass
 };
-// reach (world units): beyond this distance it is not sampled as a light source, and its light arrives only
-// by indirect rays that hit it by chance. 0: no limit. Negative: it lights nothing and is only seen directly.
+// reach (world units): nearer surfaces are lit by shadow rays, others only by indirect rays that hit it by
+// chance. 0: by such rays alone. Negative: it lights nothing and is only seen directly.
 struct Glow {
   Color radiance;
   double reach = 0;

@@ -138,7 +138,7 @@ class SurfaceFunctions::Maker {
     return thing;
   }
 
-  // Adds the place of the primitive to errors of read(), which begin with the path of the file.
+  // Errors of read() begin with the path of the file; this adds the place of the primitive.
   template <class Read>
   auto placed(const Read& read) const {
     try {

@@ -30,7 +30,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   const double toSource = way.length();
   const V3d out = way / toSource;
   const double cosine = std::max(normal.dot(in), tuning::Highlights::kEdgeOn);
-  // The tangents perpendicular to the plane of reflection and in it.
+  // The tangents across the plane of incidence and in it.
   V3d across = normal.cross(in);
   if (across.length2() > 1e-12) {
     across.normalize();

@@ -1,6 +1,6 @@
 #pragma once
 // Shading of the surface that a ray hit: processes its chain of modifiers down to a material, including
-// mixtures, and adds up the light that the material's response requires (shade/material_response.h).
+// mixtures, and adds up the light that the material's response calls for (shade/material_response.h).
 #include "transport/outgoing_light.h"
 
 namespace rsphere {

@@ -43,13 +43,14 @@ struct Interpolation {
   // experiment. For more tilted normals, the moments of gathered light are less accurate. Reducing it by 30%
   // has no effect beyond noise; increasing it by 30% reduces the time by 23% (picture of workshop).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
-  // Number of rays of a record of the irradiance cache times the square of -aa, by lamps and by openings: at
-  // most -ad plus -as, and at least one part of these in kPart. The error of interpolation, which -aa bounds,
-  // is then larger than the noise of the records. Measured at -aa .15: by lamps, with 333 instead of 640
-  // rays, pictures of RADIANCE's cabin and office take a quarter less time for nearly equal errors
-  // (tests/bench/rtrace/runs/2026-11-27-patches.txt). By daylight, with 128 instead of 768 rays, a picture of
-  // a bedroom behind blinds takes 3.1 instead of 11.6 s, with a median error of 3.5 instead of 2.5%
-  // (RADIANCE: 5.7 s, 13%), one of a museum with a skylight 1.7 instead of 7.1 s, with equal errors (5 s).
+  // The number of rays of a record of the irradiance cache is this divided by the square of -aa, by lamps
+  // and by openings, but at most -ad plus -as, and at least 1/kPart of that sum. The error of interpolation,
+  // which -aa bounds, is then larger than the noise of the records. Measured at -aa .15: by lamps, with 333
+  // instead of 640 rays, pictures of RADIANCE's cabin and office take a quarter less time for nearly equal
+  // errors (tests/bench/rtrace/runs/2026-11-27-patches.txt). By daylight, with 128 instead of 768 rays, a
+  // picture of a bedroom behind blinds takes 3.1 instead of 11.6 s, with a median error of 3.5 instead of
+  // 2.5% (RADIANCE: 5.7 s, 13%), one of a museum with a skylight 1.7 instead of 7.1 s, with equal errors (5
+  // s).
   RSPHERE_TUNED(Interpolation, double, kRaysByLamps, 7.5);
   RSPHERE_TUNED(Interpolation, double, kRaysByOpenings, 2.7);
   static constexpr int kPartByLamps = 2, kPartByOpenings = 6;

@@ -22,6 +22,7 @@ const V3d kFacing(.6, .8, 0);
 
 Numbers valuesOf(const PointAnswer& a) {
   Numbers values;
+  values.fill(std::nan(""));  // a quantity that is forgotten here agrees with nothing
   values[Kernels::cylindrical] = brightness(a.cylindricalIrradiance);
   values[Kernels::semicylindrical] = brightness(a.semicylindricalIrradiance(kFacing));
   values[Kernels::hemispherical] = brightness(a.hemisphericalIrradiance());
