@@ -95,7 +95,7 @@ class Parts(InAFolder):
         self.assertEqual([v.met() for v in verdicts], [True, False, False], "2 of 40 hours would be allowed")
         found = glare.quantities()
         np.testing.assert_allclose(found["DGP above 0.40"][0], [1 / 40, 3 / 40])
-        np.testing.assert_allclose(found["DGP of 5% of the hours"][0], [0.2, 0.401], err_msg="exceeded in 2 of 40 hours")
+        np.testing.assert_allclose(found["DGP exceeded in 5% of the hours"][0], [0.2, 0.401], err_msg="exceeded in 2 of 40 hours")
 
 
 class Hours(InAFolder):
@@ -156,7 +156,7 @@ class Hours(InAFolder):
         self.file("2 2.5 1.2 0 -1 0\n", "eyes.txt")
         run = run_here([built("rsphere-annual"), "--weather", "w.wea", "--spacing", "2", "-d", "16", "-e", "2", "--shades", "pane", "--eyes", "eyes.txt", "--glare", room])
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertRegex(run.stdout, r"DGP of 5% of the hours: 0\.[0-9]{2} \+- 0\.[0-9]{2}, mean of the eyes")
+        self.assertRegex(run.stdout, r"DGP exceeded in 5% of the hours: 0\.[0-9]{2} \+- 0\.[0-9]{2}, mean of the eyes")
         self.assertRegex(run.stdout, r"protection from glare: .*:\nDGP above 0\.45: minimum +at most 5% of the hours +[0-9.]+% +[0-9.]+ +(yes|no)")
 
 

@@ -157,7 +157,7 @@ class Glare:
             weights = np.array([w[shades] for w in self.weights])
             dark = self.year.occupied_hours - weights.shape[1]  # hours of night
             at = int(np.ceil((1 - SELDOM) * self.year.occupied_hours)) - 1 - dark
-            found[f"DGP of 5% of the hours{how}"] = (*estimated(lambda lux, w=weights, k=at: np.sort(dgp(lux, w), axis=1)[:, max(0, k)], self.lux[shades]), "")
+            found[f"DGP exceeded in 5% of the hours{how}"] = (*estimated(lambda lux, w=weights, k=at: np.sort(dgp(lux, w), axis=1)[:, max(0, k)], self.lux[shades]), "")
             for limit, _ in CLASSES:
                 found[f"DGP above {limit:.2f}{how}"] = (*self.share_above(limit, shades), "%")
         return found
