@@ -10,6 +10,9 @@ td:first-child, th:first-child { text-align: left; } td.words, th.words { text-a
 .good, .bad { padding: .6em 1em; border-left: 5px solid #2a2; background: #2a22; } .bad { border-color: #c22; background: #c222; }
 .missed { color: #c22; font-weight: bold; } .note { opacity: .75; font-size: .9em; }
 figure { margin: 1em 0; background: white; overflow-x: auto; } svg { max-width: 100%; height: auto; } code { white-space: pre-wrap; }
+@page { size: A4; margin: 16mm; }
+@media print { :root { color-scheme: light; } body { font-size: 9pt; max-width: none; margin: 0; padding: 0; }
+  .good, .bad { print-color-adjust: exact; -webkit-print-color-adjust: exact; } h2 { break-after: avoid; } tr, figure { break-inside: avoid; } }
 """
 
 

@@ -1,4 +1,5 @@
 """Where should the lamps hang? From goals to the layout of luminaires that meets them with the least watts."""
+import argparse
 import os
 import time
 
@@ -6,12 +7,25 @@ import rsphere
 
 from ..command import Options
 from ..fault import Fault, fault
+from .limits import ACTIVITIES
+from .report import Report
 from .steps import Steps
 
 TEXT = """\
 GOALS is a text that says what is wanted, which luminaires there are, and where they may hang: rsphere-layout(1).
 The room has no luminaires that are lit. The layout, its luminaires as .rad, a table of what was planned and of what light
-traced forward finds, plans and a page for the browser (page.html) go into the folder of -o."""
+traced forward finds, plans and a page for the browser (page.html) go into the folder of -o.
+With --report, GOALS says which tasks are in a room with its luminaires; report.html and report.txt compare it with EN 12464-1."""
+
+
+class Activities(argparse.Action):
+    """Prints the activities whose limits are known, and ends."""
+
+    def __call__(self, parser, *_):
+        for a in ACTIVITIES.values():
+            room = f"at eyes {a.cylindrical:g} lx, walls {a.walls:g} lx, ceiling {a.ceiling:g} lx"
+            print(f"{a.title()}: {a.illuminance:g} lx, U_o {a.uniformity:.2f}, UGR {a.ugr:g}; {room}")
+        parser.exit()
 
 
 def arguments():
@@ -28,8 +42,11 @@ def arguments():
     parser.add_argument("-p", "--plan", metavar="NAME", help="polygon or modifier above which plans are drawn: the floor")
     parser.add_argument("--height", type=float, metavar="H", help="of plans above it: that of the goals, or .75 m")
     parser.add_argument("--no-plan", action="store_true", help="no falsecolor plans")
+    parser.add_argument("--report", action="store_true", help="on a room with its luminaires, by EN 12464-1")
+    parser.add_argument("--accuracy", type=float, default=0.02, metavar="X", help="of the report: standard error of a point")
+    parser.add_argument("--activities", action=Activities, nargs=0, help="with their limits, for the report")
     given = parser.parse_args()
-    for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536)):
+    for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536), ("accuracy", 1e-4, 0.5)):
         if not least <= getattr(given, name) <= most:
             raise Fault(f"--{name} must be from {least:g} to {most:g}")
     return given
@@ -41,8 +58,8 @@ def main():
         os.makedirs(given.output, exist_ok=True)
     except OSError as error:
         raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
-    steps = Steps(rsphere, given)
+    steps = (Report if given.report else Steps)(rsphere, given)
     begin = time.monotonic()
     steps.run()
-    print(f"{os.path.join(given.output, 'page.html')}: the page ({time.monotonic() - begin:.0f} s in all)")
+    print(f"{os.path.join(given.output, 'report.html' if given.report else 'page.html')}: the page ({time.monotonic() - begin:.0f} s in all)")
     return 0 if steps.met() else 2

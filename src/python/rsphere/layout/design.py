@@ -132,22 +132,21 @@ class Words:
             raise self.fault(f'"{self.words[self.next]}" is not expected here')
 
 
-class Reader:
-    """Reads the lines of a design, one function for each first word."""
+class Statements:
+    """Reads the lines of a file about a room, one function for each first word."""
 
     def __init__(self, file, polygons):
-        self.design = Design(file)
-        self.folder = os.path.dirname(file)
+        self.file, self.folder = file, os.path.dirname(file)
         self.polygons = polygons
         corners = np.concatenate([p.corners for p in polygons]) if polygons else np.zeros((1, 3))
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
-    def read(self):
-        for index, line in enumerate(lines_of(self.design.file, "utf-8", "surrogateescape")):
+    def take_lines(self):
+        for index, line in enumerate(lines_of(self.file, "utf-8", "surrogateescape")):
             words = line.split("#")[0].split()
             if not words:
                 continue
-            taken = Words(words, self.design.file, index + 1)
+            taken = Words(words, self.file, index + 1)
             taken.next = 1
             function = getattr(self, "read_" + words[0], None)
             if function is None:
@@ -155,6 +154,35 @@ class Reader:
                 raise taken.fault(f'"{words[0][:40]}" is none of {known}')
             function(taken)
             taken.end()
+
+    def units(self, w):
+        """The units that a statement names, in a metre."""
+        unit = w.text("one of " + " ".join(UNITS))
+        if unit not in UNITS:
+            raise w.fault(f'the unit must be one of {" ".join(UNITS)}, not "{unit[:40]}"')
+        size = np.linalg.norm(self.high - self.low) / UNITS[unit]
+        if not SCENE_SIZES[0] <= size <= SCENE_SIZES[1]:
+            raise w.fault(f"in {unit} the scene would have a size of {size:.2g} m; units are those of its coordinates")
+        return UNITS[unit]
+
+    def near(self, w, position, what):
+        """Raises Fault for a place that is far from the scene."""
+        size = np.linalg.norm(self.high - self.low)
+        if np.linalg.norm(np.maximum(self.low - position, position - self.high).clip(0)) > FAR * size:
+            low, high = (" ".join(f"{v:.5g}" for v in at) for at in (self.low, self.high))
+            raise w.fault(f"{what} is far from the scene, which reaches from {low} to {high}; is it in the units of the scene?")
+        return position
+
+
+class Reader(Statements):
+    """Reads a design."""
+
+    def __init__(self, file, polygons):
+        super().__init__(file, polygons)
+        self.design = Design(file)
+
+    def read(self):
+        self.take_lines()
         self.check()
         return self.design
 
@@ -170,23 +198,9 @@ class Reader:
                 raise fault(*scene.place, f"the scene {scene.name} has no goals")
 
     def read_units(self, w):
-        unit = w.text("one of " + " ".join(UNITS))
-        if unit not in UNITS:
-            raise w.fault(f'the unit must be one of {" ".join(UNITS)}, not "{unit[:40]}"')
         if self.design.surfaces or self.design.candidates:
             raise w.fault("units must be above all surfaces and places")
-        self.design.units = UNITS[unit]
-        size = np.linalg.norm(self.high - self.low) / UNITS[unit]
-        if not SCENE_SIZES[0] <= size <= SCENE_SIZES[1]:
-            raise w.fault(f"in {unit} the scene would have a size of {size:.2g} m; units are those of its coordinates")
-
-    def near(self, w, position, what):
-        """Raises Fault for a place that is far from the scene."""
-        size = np.linalg.norm(self.high - self.low)
-        if np.linalg.norm(np.maximum(self.low - position, position - self.high).clip(0)) > FAR * size:
-            low, high = (" ".join(f"{v:.5g}" for v in at) for at in (self.low, self.high))
-            raise w.fault(f"{what} is far from the scene, which reaches from {low} to {high}; is it in the units of the scene?")
-        return position
+        self.design.units = self.units(w)
 
     def read_maintenance(self, w):
         self.design.maintenance = w.number("the maintenance factor", 0.01, 1)

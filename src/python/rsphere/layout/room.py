@@ -1,6 +1,7 @@
 """The room: its polygons by name, and surfaces of goals with points on them."""
 import difflib
 import fnmatch
+import os
 import re
 import subprocess
 from dataclasses import dataclass, field
@@ -113,6 +114,15 @@ def read_polygons(files):
     return polygons
 
 
+def plan_of(path, words, raypath_of):
+    """The drawing that the program plan writes to a path."""
+    run = subprocess.run([program("plan"), "-o", path, *words], capture_output=True, text=True, check=False, env=dict(os.environ, RAYPATH=raypath_of))
+    if run.returncode:
+        raise Fault(run.stderr.strip().split("\n")[-1])
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        return stream.read()
+
+
 def has_mirrors(files):
     """Whether surfaces mirror light without blur: special objects (rsphere -Sl) that are not panes of glass."""
     command = [program("rsphere"), "-h", "-w-", "-Sl", *files]
@@ -130,13 +140,17 @@ def names_matching(polygons, pattern):
     return []
 
 
+def upward(polygons):
+    """Those that face up."""
+    return [p for p in polygons if p.vector()[2] > 0.999 * np.linalg.norm(p.vector()) > 0]
+
+
 def polygons_named(polygons, name, place):
     """The polygons of a name, or else of a box or a modifier; of these, those that face up if some do. place: file and line."""
     named = [p for p in polygons if p.name == name]
     if not named:
         named = [p for p in polygons if p.box() == name] or [p for p in polygons if p.modifier == name]
-        up = [p for p in named if p.vector()[2] > 0.999 * np.linalg.norm(p.vector())]
-        named = up or named
+        named = upward(named) or named
     named = [p for p in named if np.linalg.norm(p.vector()) > 0]
     if not named:
         known = sorted({p.box() for p in polygons} | {p.modifier for p in polygons})
@@ -200,6 +214,16 @@ def inside_margin(polygon, margin):
     return origin + flat[:, :1] * right + flat[:, 1:] * up
 
 
+def distance(corners, points):
+    """How far points (n, 2) are from a polygon (m, 2); 0 inside."""
+    nearest = np.full(len(points), np.inf)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0)):
+        along = b - a
+        t = ((points - a) @ along / max(along @ along, 1e-300)).clip(0, 1)
+        nearest = np.minimum(nearest, np.hypot(*(points - a - t[:, None] * along).T))
+    return np.where(inside(corners, points), 0.0, nearest)
+
+
 def cells_of(polygon, spacing, margin, place):
     """The middles and corners of cells of at most a spacing, parallel to the first edge, with the middle inside."""
     origin, right, up, flat = flat_frame(polygon)
@@ -233,10 +257,9 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
     named = [p for p, o in zip(named, outlines) if len(o)]
     outlines = [(o, side * p.vector() / np.linalg.norm(p.vector())) for o, p in zip((o for o in outlines if len(o)), named)]
     points, normals, cells = [], [], []
-    for p in named:
-        normal = side * p.vector() / np.linalg.norm(p.vector())
-        size = np.ptp(p.corners @ np.stack(frame_of(normal)).T, axis=0)
-        most = spacing or min(standard_spacing(*(size / units)) * units, np.sqrt(np.linalg.norm(p.vector()) / 6))
+    for p, (outline, normal) in zip(named, outlines):
+        size = np.ptp(outline @ np.stack(frame_of(normal)).T, axis=0)
+        most = spacing or min(standard_spacing(*(size / units)) * units, np.sqrt(np.linalg.norm(vector_of(outline)) / 6))
         for corners in cells_of(p, most, margin, place)[1]:
             sides = np.stack([corners[1] - corners[0], corners[3] - corners[0]])
             cells.append(corners)

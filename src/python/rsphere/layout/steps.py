@@ -2,21 +2,19 @@
 import contextlib
 import os
 import statistics
-import subprocess
 import tempfile
 import time
 
 import numpy as np
 
-from ..command import program
-from ..fault import Fault, fault
+from ..fault import fault
 from ..page import Page, table
 from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
 from .forward import Forward, daylight_of
 from .drawing import drawing
-from .room import read_polygons
+from .room import plan_of, read_polygons
 from .search import most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
@@ -322,17 +320,13 @@ class Steps:
         outlines = list(dict.fromkeys(p.name for surface in d.surfaces.values() for p in surface.polygons))[:60] + [f"{d.luminaires[self.candidates[j].luminaire].name}.{n + 1}.1"
                                             for n, (j, l) in enumerate(zip(self.layout.chosen, self.layout.levels[s]))
                                             if l >= 1e-4 and d.luminaires[self.candidates[j].luminaire].photometry.shape == "box"]
-        command = [program("plan"), "-s", name, "-h", f"{height:g}", "-d", f"{size / 28:g}", "-z", "-o", path, "-t",
+        command = ["-s", name, "-h", f"{height:g}", "-d", f"{size / 28:g}", "-z", "-t",
                    f"Illuminance {height / d.units:.2f} m above {name} (lx){': ' + scene.name if scene.name else ''}"]
         command += [word for o in outlines for word in ("-c", o)]
         command += [*scene.daylight, *self.given.room, self.files[s], "--", "-ab", str(self.given.bounces + 1), "-ad", "512", "-as", "128"]
         folder = os.path.abspath(self.given.output)
         path_of = ":".join(p for p in (folder, os.environ.get("RAYPATH", ".")) if p)
-        run = subprocess.run(command, capture_output=True, text=True, check=False, env=dict(os.environ, RAYPATH=path_of))
-        if run.returncode:
-            raise Fault(run.stderr.strip().split("\n")[-1])
-        with open(path, encoding="utf-8", errors="replace") as stream:
-            return stream.read()
+        return plan_of(path, command, path_of)
 
     def pages(self):
         page, d = Page(self.title), self.design

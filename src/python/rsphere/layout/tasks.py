@@ -1,0 +1,144 @@
+"""Reads what a report is about: the tasks in a room with its luminaires, its walls, its ceiling, and where eyes are."""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..fault import fault
+from .design import Eye, Statements
+from .limits import ACTIVITIES, SURROUNDING_WIDTH
+from .room import Polygon, names_matching, polygons_named, surface_of, upward
+
+LIMITS = {"illuminance": (0, 1e6), "uniformity": (0, 1), "ugr": (5, 40), "cylindrical": (0, 1e6), "walls": (0, 1e6), "ceiling": (0, 1e6)}
+
+
+@dataclass
+class Task:
+    surface: object  # of room.Surface
+    activity: object
+    around: float  # width of the surrounding area, units of the scene
+
+
+@dataclass
+class Lamps:
+    """Luminaires by the modifiers of their light."""
+
+    pattern: str
+    watts: float  # of all of them together, at full light; 0 if that is not known
+    factor: float  # their light is dimmed to
+    place: tuple
+
+
+@dataclass
+class Tasks:
+    file: str
+    units: float = 1.0
+    maintenance: float = 1.0
+    lamps: list = field(default_factory=list)
+    tasks: list = field(default_factory=list)
+    walls: list = field(default_factory=list)  # of room.Surface
+    ceiling: list = field(default_factory=list)
+    floor: list = field(default_factory=list)  # polygons
+    eyes: list = field(default_factory=list)  # of design.Eye
+    height: float = 1.2  # m: of the grid of eyes above the floor
+    spacing: float = None  # of the grid, units of the scene
+
+
+class TaskReader(Statements):
+    def __init__(self, file, polygons):
+        super().__init__(file, polygons)
+        self.found = Tasks(file)
+
+    def read(self):
+        self.take_lines()
+        if not self.found.tasks:
+            raise fault(self.file, None, "there is no task SURFACE ACTIVITY")
+        if not self.found.floor:
+            up = upward(self.polygons)
+            if not up:
+                raise fault(self.file, None, "no polygon faces up; name the floor: floor NAME")
+            self.found.floor = [max(up, key=lambda p: p.vector()[2])]
+        return self.found
+
+    def read_units(self, w):
+        if self.found.tasks or self.found.walls or self.found.ceiling:
+            raise w.fault("units must be above all surfaces")
+        self.found.units = self.units(w)
+
+    def read_maintenance(self, w):
+        self.found.maintenance = w.number("the maintenance factor", 0.01, 1)
+
+    def read_luminaire(self, w):
+        lamps = Lamps(w.text("the modifier of the light, or a pattern"), 0.0, 1.0, w.place)
+        while w.more():
+            key = w.text("watts or factor")
+            if key not in ("watts", "factor"):
+                raise w.fault(f'"{key[:40]}" is neither watts nor factor')
+            setattr(lamps, key, w.number(f"the {key}", 0, 1e9 if key == "watts" else 1))
+        self.found.lamps.append(lamps)
+
+    def names(self, w):
+        name = w.text("the name of a surface")
+        names = names_matching(self.polygons, name)
+        return names or polygons_named(self.polygons, name, w.place)  # which raises the fault with names that are similar
+
+    def read_task(self, w):
+        names, number = self.names(w), w.text("the number of an activity")
+        if number not in ACTIVITIES:
+            raise w.fault(f'there is no activity "{number[:20]}"; rsphere-layout --activities lists them')
+        options = {"height": (-1e9, 1e9), "margin": (0, 1e9), "spacing": (1e-9, 1e9), "surrounding": (0, 1e9), **LIMITS}
+        found, back = {}, False
+        while w.more():
+            key = w.text("an option")
+            if key == "back":
+                back = True
+            elif key in options:
+                found[key] = w.number(f"the {key}", *options[key])
+            else:
+                raise w.fault(f'"{key[:40]}" is none of {", ".join(options)}, back')
+        activity = ACTIVITIES[number].changed({key: value for key, value in found.items() if key in LIMITS})
+        around = found.get("surrounding", SURROUNDING_WIDTH * self.found.units)
+        for name in names:
+            raised = [Polygon(name, p.modifier, p.corners + found.get("height", 0.0) * (-1 if back else 1) * p.vector() / np.linalg.norm(p.vector()))
+                      for p in polygons_named(self.polygons, name, w.place)]
+            surface = surface_of(raised, name, w.place, self.found.units, back, found.get("spacing"), found.get("margin", 0.0))
+            self.found.tasks.append(Task(surface, activity, around))
+
+    def facing_room(self, w):
+        """A surface for each polygon of a statement, its side that faces the middle of the scene."""
+        middle, found = (self.low + self.high) / 2, []
+        while w.more() or not found:
+            for p in (p for name in self.names(w) for p in polygons_named(self.polygons, name, w.place)):
+                back = (middle - p.corners.mean(axis=0)) @ p.vector() < 0
+                found.append(surface_of([p], p.name, w.place, self.found.units, back))
+        return found
+
+    def read_walls(self, w):
+        self.found.walls += self.facing_room(w)
+
+    def read_ceiling(self, w):
+        self.found.ceiling += self.facing_room(w)
+
+    def read_floor(self, w):
+        for name in self.names(w):
+            self.found.floor += upward(polygons_named(self.polygons, name, w.place))
+        if not self.found.floor:
+            raise w.fault("the floor does not face up")
+
+    def read_eye(self, w):
+        name = w.text("a name")
+        self.found.eyes.append(Eye(name, self.near(w, w.vector("the place"), f'"{name[:40]}"')))
+
+    def read_eyes(self, w):
+        while w.more():
+            key = w.text("height or spacing")
+            if key == "height":
+                self.found.height = w.number("the height of eyes", 1e-9, 1e9) / self.found.units
+            elif key == "spacing":
+                self.found.spacing = w.number("the spacing of eyes", 1e-9, 1e9)
+            else:
+                raise w.fault(f'"{key[:40]}" is neither height nor spacing')
+
+
+def read_tasks(file, polygons):
+    """The Tasks of a file, for a room of these polygons. Raises Fault with its line."""
+    return TaskReader(file, polygons).read()
