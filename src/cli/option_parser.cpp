@@ -519,7 +519,8 @@ Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
     const std::string word = words.take();
     if (word == "-version" || word == "--version") given.request = Request::version;
     if (word == "-defaults") given.request = Request::defaults;
-    if (word == "-help" || word == "--help") given.request = Request::help;
+    if (word == "-help" || word == "--help")
+      given.request = !words.atEnd() && words.word() == "all" ? Request::helpAll : Request::help;
     if (given.request != Request::answers) break;
     if (word == "-features") commandLineError(word, "it must be the first option");
     Use use = takeUse(words, companion, word);

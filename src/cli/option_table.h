@@ -140,8 +140,8 @@ RayOptions pictureDefaults();
 //   off. Switches that begin with -S take no letters, so that -SN 8 is not a switch before a scene called 8.
 // - An option that only works in the other mode is an error.
 // - The scene begins at the first word that is not an option, and consists of all remaining words.
-// - The command line ends at -version (or --version), -defaults or -help (or --help). -features is an
-//   option only as the first word.
+// - The command line ends at -version (or --version), -defaults or -help (or --help), which "all" may follow.
+//   -features is an option only as the first word.
 // Opens only the files of @file, -aE, -aI, -tE and -tI.
 // Throws rad::Error with rtrace's texts, such as "command line error at '-ab'", "cannot expand '@x': No such
 // file or directory" (Status::system) or "missing octree argument"; and with "option '-ap' is not supported:
@@ -184,8 +184,10 @@ std::string companionDefaults(const Companion& companion, Options& options);
 // begin with '#', it can be read by @file. takes: Companion::takes.
 std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&) = nullptr);
 
-// The text of -help: one line for each option.
+// The text of "-help all": one line for each option. And that of -help: a line for each of the twelve options
+// of the mode that most people need.
 std::string helpText(const Options& options);
+std::string usualHelp(const Options& options);
 
 // The answer to -features. text: what it prints. missing: the first feature among the words after it that
 // this program lacks. features: Companion::features.

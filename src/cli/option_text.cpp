@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "answer/column_names.h"
@@ -74,6 +75,40 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                      : value.empty()                  ? ""
                                                       : fmt::format(" [{}]", value));
 }
+
+constexpr std::string_view kSceneHelp =
+    "A scene is an octree, RADIANCE scene files, or a '!command' that writes one of them.\n";
+
+// What -help lists, in words for those who are new to the program.
+struct UsualOption {
+  std::string_view name, text;
+};
+constexpr std::array<UsualOption, 12> kUsualOfPoints{
+    {{"-pY", "lux and cd/m2 instead of red, green and blue"},
+     {"-o", "v mean luminance, E scalar, C cylindrical lux, H on six faces, e standard error"},
+     {"-Sa", "adds directions until this relative standard error is reached: .01 is 1%"},
+     {"-ab", "reflections that are followed"},
+     {"-aa", ".1 is faster by daylight, from tens of points on"},
+     {"-Su", "glare at eyes, x y z and the direction of the gaze: UGR, DGP"},
+     {"-Si", "picture of what a point sees: view.png, or view%d.png for several points"},
+     {"-Sg", "importance: where a lamp would serve the surfaces of this modifier"},
+     {"-Sp", "a separate answer for each lamp, or for each goal of -Sg"},
+     {"-cs", "bands of the spectrum, such as 20"},
+     {"-h", "header before the answers"},
+     {"-n", "cores; 0: all"}}};
+constexpr std::array<UsualOption, 12> kUsualOfRays{
+    {{"-I", "irradiance at sensors instead of radiance along rays"},
+     {"-pY", "lux and cd/m2 instead of red, green and blue"},
+     {"-o", "v radiance or irradiance, e its standard error, L distance, m modifier, and others"},
+     {"-Sa", "all reflections, to this relative standard error: .01 is 1%"},
+     {"-ab", "reflections that are followed, without -Sa"},
+     {"-ad", "rays of a sensor or a diffuse surface, without -Sa"},
+     {"-aa", "interpolated light: .1; 0: off"},
+     {"-x", "width of a picture of rays, as vwrays writes them"},
+     {"-y", "height of such a picture"},
+     {"-f", "formats of input and output: a text, f floats, d doubles; output also c colors"},
+     {"-h", "header before the answers"},
+     {"-n", "cores; 0: all"}}};
 
 // Features common to all programs, in RADIANCE's words.
 constexpr std::string_view kSceneFeatures[] = {
@@ -154,10 +189,8 @@ std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry
 
 std::string helpText(const Options& options) {
   Options values = options;
-  std::string text = fmt::format(
-      "usage: {} [options] scene... < records > answers\n"
-      "A scene is an octree, RADIANCE scene files, or a '!command' that writes one of them.\n",
-      options.program);
+  std::string text =
+      fmt::format("usage: {} [options] scene... < records > answers\n{}", options.program, kSceneHelp);
   for (const auto& [group, name] : kGroups) {
     text += fmt::format("\n{}:\n", name);
     for (const OptionEntry& entry : optionTable()) {
@@ -165,9 +198,24 @@ std::string helpText(const Options& options) {
       text += helpLine(entry, values);
     }
   }
-  return text +
-         fmt::format("\n-defaults prints all options with their values, -version the version. See {}(1).\n",
-                     "rsphere");
+  return text + "\n-defaults prints all options with their values, -version the version. See rsphere(1).\n";
+}
+
+std::string usualHelp(const Options& options) {
+  Options values = options;
+  const bool points = options.sphereMode;
+  std::string text =
+      fmt::format("usage: {} [options] scene... < {} > answers\n\n{}{}", options.program,
+                  points ? "points" : "rays", kSceneHelp,
+                  points ? "A line of the input is a point: x y z.\n\n"
+                         : "A ray, or a sensor of -I, is an origin and a direction: x y z dx dy "
+                           "dz.\n\n");
+  for (const UsualOption& usual : points ? kUsualOfPoints : kUsualOfRays) {
+    OptionEntry entry = *std::ranges::find(optionTable(), usual.name, &OptionEntry::name);
+    entry.help = usual.text;
+    text += helpLine(entry, values);
+  }
+  return text + "\n-help all lists the other options, too. See rsphere(1).\n";
 }
 
 FeatureReport featureReport(std::span<const std::string> wanted, std::span<const std::string_view> features) {

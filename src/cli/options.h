@@ -8,8 +8,8 @@
 
 namespace rsphere {
 
-// Whether the command line requests answers or a text about the program.
-enum class Request : uint8_t { answers, version, defaults, help, features };
+// Whether the command line requests answers or a text about the program. help: of the usual options.
+enum class Request : uint8_t { answers, version, defaults, help, helpAll, features };
 
 // The command line. It is checked, but neither the scene nor a record has been read.
 struct Options : AnswerOptions {

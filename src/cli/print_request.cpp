@@ -11,7 +11,8 @@ int print(const Options& options, std::span<const std::string_view> features, co
   RecordWriter writer(1);
   if (options.request == Request::version) writer.write(versionAnswer(options.program) + "\n");
   if (options.request == Request::defaults) writer.write(defaultsText(options));
-  if (options.request == Request::help) writer.write(helpText(options));
+  if (options.request == Request::help) writer.write(usualHelp(options));
+  if (options.request == Request::helpAll) writer.write(helpText(options));
   if (options.request == Request::features) {
     const FeatureReport report = featureReport(options.features, features);
     writer.write(report.text);
@@ -33,7 +34,7 @@ int printRequest(const Companion& companion, Options& options, const Messages& m
   RecordWriter writer(1);
   if (options.request == Request::defaults)
     writer.write(companionDefaults(companion, options));
-  else if (options.request == Request::help)
+  else if (options.request == Request::help || options.request == Request::helpAll)
     writer.write(companionHelp(companion, options));
   else
     return print(options, companion.features, messages);

@@ -385,6 +385,8 @@ TEST(ParseOptions, RequestsEndTheCommandLine) {
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-help"}).request, Request::help);
   EXPECT_EQ(parse({"rtrace", "--version", "-nonsense"}).request, Request::version);
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "--help"}).request, Request::help);
+  EXPECT_EQ(parse({"rtrace", "-ab", "2", "-help", "all"}).request, Request::helpAll);
+  EXPECT_EQ(parse({"rtrace", "-help", "-nonsense"}).request, Request::help);
   EXPECT_EQ(parse({"rtrace", "-ab", "2", "-defaults", "x"}).ray.ambientBounces, 2);
   EXPECT_EQ(beginningOfFault({"rtrace", "-nonsense", "-version"}), "command line error at '-nonsense'");
   EXPECT_EQ(beginningOfFault({"rtrace", "-h", "-features"}), "command line error at '-features'");

@@ -282,6 +282,27 @@ TEST(Help, HasALineForEveryOptionThatWorks) {
         << entry.name;
 }
 
+TEST(Help, HasTwelveUsualOptionsOfEachMode) {
+  const auto options = [](const std::string& text) {
+    size_t lines = 0;
+    for (size_t at = 0; (at = text.find("\n  -", at)) != text.npos; ++at) ++lines;
+    return lines;
+  };
+  const std::string points = usualHelp(parse({"rsphere", "-Sa", ".02", "-help"}));
+  const std::string rays = usualHelp(parse({"rtrace", "-help"}));
+  EXPECT_EQ(options(points), 12u);
+  EXPECT_EQ(options(rays), 12u);
+  EXPECT_NE(points.find("is reached: .01 is 1% [0.02]\n"), points.npos);
+  for (const std::string& text : {points, rays}) {
+    for (size_t at = 0, end; (end = text.find('\n', at)) != text.npos; at = end + 1)
+      EXPECT_LE(end - at, 110u) << text.substr(at, end - at);
+    for (const OptionEntry& entry : optionTable())
+      EXPECT_TRUE(worksIn(entry, text == points) ||
+                  text.find(fmt::format("\n  {} ", entry.name)) == text.npos)
+          << entry.name;
+  }
+}
+
 TEST(Features, AreListedAndAskedFor) {
   const Options options = parse({"rtrace", "-features", "-ab", "x"});
   EXPECT_EQ(options.request, Request::features);
