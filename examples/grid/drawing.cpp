@@ -128,15 +128,23 @@ std::vector<Ring> ringsOf(std::vector<Edge> edges) {
   return rings;
 }
 
+// The distance of ticks along an axis of this length: some 60 pixels, or as few as labels need if there would
+// be only one or two.
+double stepOf(double length, double pixelsOfLabel, double perUnit) {
+  const double usual = roundUp(60 / perUnit);
+  return length >= 2 * usual ? usual : std::min(usual, roundUp(pixelsOfLabel / perUnit));
+}
+
 void drawAxes(Canvas& canvas, const Scale& scale) {
   const Box& frame = scale.frame;
-  const double step = roundUp(60 / scale.perUnit);
+  double step = stepOf(scale.high.x - scale.low.x, 30, scale.perUnit);
   std::string ticks;
   for (double u = std::ceil(scale.low.x / step - 1e-6) * step; u <= scale.high.x + 1e-6 * step; u += step) {
     ticks += fmt::format("M{:.2f} {:.2f}v5", scale.x(u), frame.bottom + 4);
     canvas.text(scale.x(u), frame.bottom + 21, fmt::format("{:.6g}", std::abs(u) < 1e-6 * step ? 0. : u),
                 "text-anchor=\"middle\" font-size=\"11\" fill=\"#555\"");
   }
+  step = stepOf(scale.high.y - scale.low.y, 15, scale.perUnit);
   for (double v = std::ceil(scale.low.y / step - 1e-6) * step; v <= scale.high.y + 1e-6 * step; v += step) {
     ticks += fmt::format("M{:.2f} {:.2f}h-5", frame.left - 4, scale.y(v));
     canvas.text(frame.left - 12, scale.y(v) + 4, fmt::format("{:.6g}", std::abs(v) < 1e-6 * step ? 0. : v),
@@ -275,13 +283,15 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
   const double legendHeight = std::max(frame.bottom - frame.top, 18. * static_cast<double>(colors.size()));
   drawLegend(canvas, levels, colors, Summary(values), drawing.unit, frame.right + 24, kTop + 8,
              legendHeight - 8);
-  double bottom = kTop + legendHeight + 30;
-  for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
-  double width = frame.right + 24 + 104;
+  // The remarks are below the plan. Beside a long and narrow one, the legend reaches further down.
+  double widest = 0;
   for (const std::string& remark : drawing.remarks)
-    width = std::max(width, 30 + 6.8 * static_cast<double>(remark.size()));
-  width = std::max(width, 30 + 8.8 * static_cast<double>(drawing.title.size()));
-  return canvas.svg(width, bottom + 16);
+    widest = std::max(widest, 30 + 6.8 * static_cast<double>(remark.size()));
+  double bottom = (widest < frame.right ? frame.bottom : kTop + legendHeight) + 30;
+  for (const std::string& remark : drawing.remarks) canvas.text(kLeft - 40, bottom += 17, remark, "");
+  const double width =
+      std::max({frame.right + 24 + 104, widest, 30 + 8.8 * static_cast<double>(drawing.title.size())});
+  return canvas.svg(width, std::max(bottom, kTop + legendHeight) + 16);
 }
 
 }  // namespace grid

@@ -308,5 +308,27 @@ TEST(GridDrawing, PictureIsWellFormed) {
   EXPECT_GE(numbers, 1u);
 }
 
+// It had one tick at the side, and a gap as high as the legend above the remarks.
+TEST(GridDrawing, AStreetHasTicksAlongBothSidesAndItsRemarksBelowIt) {
+  const Area area = areaOf("carpet polygon road 0 0 12 0 0 0 100 0 0 100 7 0 0 7 0\n", "road");
+  const Grid grid = layGrid(area, 2, 0);
+  const std::vector<double> levels{200, 500, 1000, 2000, 3000};
+  const std::string svg =
+      planAsSvg(area, grid, linear(grid), Drawing{"Street", {"remark"}, levels, {}, false});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(svg.c_str()));
+  size_t besides = 0;
+  double below = 0, remark = 0;
+  for (const pugi::xml_node& text : document.child("svg").children("text")) {
+    const std::string anchor = text.attribute("text-anchor").value();
+    besides += anchor == "end";
+    if (anchor == "middle" && !text.attribute("font-weight")) below = text.attribute("y").as_double();
+    if (std::string(text.text().get()) == "remark") remark = text.attribute("y").as_double();
+  }
+  EXPECT_GE(besides, 2u);
+  EXPECT_GT(remark, below);
+  EXPECT_LT(remark, below + 40);
+}
+
 }  // namespace
 }  // namespace grid
