@@ -4,7 +4,6 @@
 // Latitude-longitude: zenith along the top edge, nadir along the bottom one, +x in the middle, +y a quarter
 // of the width to its left, as one sees it who stands at the point. Each pixel is the radiance of the
 // direction nearest to it, which is its Voronoi cell.
-#include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "image/picture_file.h"
 #include "sphere/directions.h"
 
 namespace {
@@ -65,13 +65,14 @@ class FalseColor {
   }
   double brightest() const { return brightest_; }
 
-  void store(const V3d& radiance, uint8_t* rgb) const {
+  // From 0 to 1.
+  void append(const V3d& radiance, std::vector<float>& rgb) const {
     const double y = luminance(radiance);
     const double shown = y > 0 ? std::clamp(1 + std::log10(y / brightest_) / kDecades, 0., 1.) : 0;
     const double at = shown * (kSteps.size() - 1);
     const size_t below = std::min(static_cast<size_t>(at), kSteps.size() - 2);
     const V3d color = kSteps[below] + (kSteps[below + 1] - kSteps[below]) * (at - static_cast<double>(below));
-    for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(std::lround(color[c]));
+    for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<float>(color[c] / 255));
   }
 
  private:
@@ -82,28 +83,18 @@ class FalseColor {
   double brightest_ = 0;
 };
 
-std::vector<uint8_t> draw(const std::vector<Sample>& samples, const FalseColor& colors) {
-  std::vector<uint8_t> pixels(size_t{3} * kWidth * kHeight);
+rsphere::Raster draw(const std::vector<Sample>& samples, const FalseColor& colors) {
+  rsphere::Raster raster{kWidth, kHeight, {}};
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const V3d direction = pixelDirection(x, y);
       const auto nearer = [&](const Sample& a, const Sample& b) {
         return a.direction.dot(direction) < b.direction.dot(direction);
       };
-      const Sample& nearest = *std::max_element(samples.begin(), samples.end(), nearer);
-      colors.store(nearest.radiance, &pixels[3 * (size_t{kWidth} * y + x)]);
+      colors.append(std::max_element(samples.begin(), samples.end(), nearer)->radiance, raster.pixels);
     }
   }
-  return pixels;
-}
-
-void writePicture(const std::string& name, const std::vector<uint8_t>& pixels) {
-  const auto out = OIIO::ImageOutput::create(name);
-  if (!out) throw std::runtime_error(OIIO::geterror());
-  if (!out->open(name, OIIO::ImageSpec(kWidth, kHeight, 3, OIIO::TypeDesc::UINT8)) ||
-      !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close()) {
-    throw std::runtime_error(out->geterror());
-  }
+  return raster;
 }
 
 }  // namespace
@@ -118,7 +109,7 @@ int main(int argc, char** argv) {
   try {
     const std::vector<Sample> samples = readSamples(std::cin, record);
     const FalseColor colors(samples);
-    writePicture(argv[2], draw(samples, colors));
+    rsphere::PictureFile(argv[2]).write(draw(samples, colors), "");
     fmt::print("{}: {} directions; white is {:.0f} cd/m2, black 1/10,000 of it or less\n", argv[2],
                samples.size(), 179 * colors.brightest());
   } catch (const std::exception& error) {

@@ -24,7 +24,7 @@ namespace grid {
 namespace {
 
 constexpr const char* kUsage =
-    R"(usage: plan -s NAME [options] scene... [-- options of rtrace]
+    R"(usage: rsphere-plan -s NAME [options] scene... [-- options of rtrace]
 
   -s NAME   the polygon to measure, or the modifier of polygons; repeat it for several in one plane
   -h H      height above the polygon, along its normal (0)
@@ -90,7 +90,7 @@ Settings settingsOf(const std::vector<std::string>& words) {
   Settings s;
   size_t i = 0;
   const auto argument = [&]() -> const std::string& {
-    if (i + 1 >= words.size()) throw rad::Error(fmt::format("{} needs an argument", words[i]));
+    if (i + 1 >= words.size()) throw rad::Error(fmt::format("{} needs an argument; see -help", words[i]));
     return words[++i];
   };
   for (; i < words.size(); ++i) {
@@ -219,7 +219,7 @@ std::string titleOf(const Settings& s) {
                      fmt::join(s.surfaces, ", "));
 }
 
-void warn(std::string_view text) { fmt::print(stderr, "plan: warning - {}\n", text); }
+void warn(std::string_view text) { fmt::print(stderr, "rsphere-plan: warning - {}\n", text); }
 
 void printPolygons(const rad::Description& scene) {
   for (const PolygonCorners& polygon : allPolygons(scene)) {
@@ -298,14 +298,15 @@ void run(const Settings& s) {
 }  // namespace grid
 
 int main(int argc, char** argv) {
-  if (argc == 1) {
+  const std::vector<std::string> words{argv + 1, argv + argc};
+  if (words.empty() || words[0] == "-help" || words[0] == "--help") {
     fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::defaults(), " "));
     return 0;
   }
   try {
-    grid::run(grid::settingsOf({argv + 1, argv + argc}));
+    grid::run(grid::settingsOf(words));
   } catch (const rad::Error& error) {
-    fmt::print(stderr, "plan: fatal - {}\n", error.what());
+    fmt::print(stderr, "rsphere-plan: fatal - {}\n", error.what());
     return static_cast<int>(error.status());
   }
 }

@@ -25,10 +25,11 @@ rad::Error systemError(const std::string& what) {
   return rad::Error(fmt::format("{}: {}", what, std::strerror(errno)), rad::Status::system);
 }
 
+// rsphere, which is called by the name rtrace below, or another rtrace.
 std::string program() {
   if (isOtherRtrace()) return std::getenv("RTRACE");
   std::error_code none;
-  const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).parent_path() / "rtrace";
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).parent_path() / "rsphere";
   return std::filesystem::exists(beside, none) ? beside.string() : "rtrace";
 }
 
@@ -50,7 +51,8 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
   std::rewind(sensors.get());  // it also writes what is left in the buffer
 
   // The user's options come before those that the answer relies on.
-  std::vector<std::string> words{program()};
+  const std::string file = program();
+  std::vector<std::string> words{isOtherRtrace() ? file : "rtrace"};
   words.insert(words.end(), options.begin(), options.end());
   words.insert(words.end(), {"-h-", "-I+", "-fa"});
   if (isOtherRtrace())
@@ -71,7 +73,7 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
     dup2(pipe[1], 1);
     close(pipe[0]);
     close(pipe[1]);
-    execvp(arguments[0], arguments.data());
+    execvp(file.c_str(), arguments.data());
     _exit(127);
   }
   close(pipe[1]);
@@ -92,7 +94,7 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw rad::Error(fmt::format("cannot run \"{}\"; $RTRACE can name another rtrace", words[0]),
+    throw rad::Error(fmt::format("cannot run \"{}\"; $RTRACE can name another rtrace", file),
                      rad::Status::system);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw rad::Error(fmt::format("\"{}\" failed; its message is above", words[0]));

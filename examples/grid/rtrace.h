@@ -16,9 +16,9 @@ struct Illuminances {
 };
 
 // The illuminances of sensors at these points that face along the normal, by running rtrace with these
-// options on these scene files. The program is $RTRACE, or else the rtrace beside this program, or else that
-// of PATH. Throws rad::Error if it cannot be run, fails, or does not answer every point; its own messages go
-// to standard error.
+// options on these scene files. The program is $RTRACE, or else the rsphere beside this program, or else the
+// rtrace of PATH. Throws rad::Error if it cannot be run, fails, or does not answer every point; its own
+// messages go to standard error.
 Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
                                const std::vector<std::string>& options,
                                const std::vector<std::string>& files);

@@ -1,14 +1,11 @@
 #include "image/codec.h"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
 #include <link.h>
 
 #include <filesystem>
 #include <system_error>
 #include <vector>
-
-#include "rad_parser/error.h"
 
 namespace rsphere {
 namespace {
@@ -37,24 +34,18 @@ bool loaded = false;
 
 const ImageCodec* load() {
   void* object = nullptr;
-  std::string why;
-  for (const auto& folder : folders()) {
-    if (object) break;
-    object = dlopen((folder / "openimageio.so").c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (!object) why = dlerror();
-  }
+  for (const auto& folder : folders())
+    if (!object) object = dlopen((folder / "openimageio.so").c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (!object) object = dlopen("openimageio.so", RTLD_LAZY | RTLD_LOCAL);
-  const void* codec = object ? dlsym(object, kImageCodecSymbol) : nullptr;
-  if (!codec) throw rad::Error(fmt::format("cannot read or write pictures: {}", why), rad::Status::system);
-  loaded = true;
-  return static_cast<const ImageCodec*>(codec);
+  loaded = object != nullptr;
+  return object ? static_cast<const ImageCodec*>(dlsym(object, kImageCodecSymbol)) : nullptr;
 }
 
 }  // namespace
 
-const ImageCodec& imageCodec() {
+const ImageCodec* imageCodec() {
   static const ImageCodec* const codec = load();
-  return *codec;
+  return codec;
 }
 
 }  // namespace rsphere

@@ -14,11 +14,14 @@
 #include <utility>
 
 #include "image/codec.h"
+#include "image/png_picture.h"
 #include "image/radiance_picture.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
 namespace {
+
+constexpr std::string_view kPng = ".png";
 
 [[noreturn]] void cannotWrite(const std::string& name, std::string why) {
   std::replace(why.begin(), why.end(), '\n', ' ');
@@ -97,8 +100,15 @@ bool writeAll(int fd, std::string_view bytes) {
 PictureFormat pictureFormat(const std::string& name) {
   for (const std::string_view suffix : {".hdr", ".pic", ".rgbe"})
     if (name.ends_with(suffix)) return PictureFormat::radiance;
+  if (name.ends_with(kPng)) return PictureFormat::screen;
   std::string format;
-  if (!imageCodec().formatOf(name, format).empty())
+  const ImageCodec* const codec = imageCodec();
+  if (!codec)
+    cannotWrite(
+        name,
+        "only .hdr and .png are written without OpenImageIO, which is missing; on Debian: apt install "
+        "rsphere-pictures");
+  if (!codec->formatOf(name, format).empty())
     cannotWrite(name,
                 "its suffix is that of no picture format; usual ones are .hdr, .exr, .tif, .png and .jpg");
   if (format == "hdr") return PictureFormat::radiance;
@@ -124,8 +134,10 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   std::string bytes;
   if (format_ == PictureFormat::radiance) {
     bytes = radiancePicture(raster, header);
+  } else if (name_.ends_with(kPng)) {
+    bytes = pngPicture(raster);
   } else {
-    const std::string why = imageCodec().encode(
+    const std::string why = imageCodec()->encode(
         name_, raster.width, raster.height, format_ == PictureFormat::linear, raster.pixels.data(), bytes);
     if (!why.empty()) cannotWrite(name_, why);
   }

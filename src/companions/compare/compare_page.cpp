@@ -12,7 +12,7 @@
 #include "companions/compare/report.h"
 #include "companions/report/page.h"
 #include "companions/report/plot.h"
-#include "image/codec.h"
+#include "image/png_picture.h"
 #include "image/screen_color.h"
 #include "rad_parser/error.h"
 
@@ -23,15 +23,6 @@ constexpr std::string_view kWithin = "#1b6fb3", kBeyond = "#d95f02", kDashes = "
 
 std::string_view unitOf(const CompareSubject& subject) { return subject.irradiance ? "W/m2" : "W/sr/m2"; }
 
-std::string pngOf(const Raster& raster) {
-  std::string bytes;
-  const std::string why =
-      imageCodec().encode("page.png", raster.width, raster.height, false, raster.pixels.data(), bytes);
-  if (!why.empty())
-    throw rad::Error(fmt::format("cannot write the pictures of the page: {}", why), rad::Status::system);
-  return bytes;
-}
-
 // The mean over the repeats as a picture.
 std::string pngOf(const Answers& answers, const CompareSubject& subject, double exposure) {
   Raster raster{static_cast<int>(subject.width), static_cast<int>(subject.height), {}};
@@ -40,7 +31,7 @@ std::string pngOf(const Answers& answers, const CompareSubject& subject, double 
     for (int c = 0; c < 3; ++c)
       raster.pixels.push_back(static_cast<float>(sRgb(std::max(0., exposure * mean[c]))));
   }
-  return pngOf(raster);
+  return pngPicture(raster);
 }
 
 // The exposure at which the median of the original's pixels that are not black becomes middle grey.
@@ -202,7 +193,8 @@ std::string comparePage(const Answers& ours, const Answers& original, const Comp
     const std::vector<PagePicture> pictures = {
         {pngOf(ours, subject, exposure), "rsphere"},
         {pngOf(original, subject, exposure), "original"},
-        {pngOf(differencesOnScreen(subject.width, subject.height, comparison.records, subject.tolerance)),
+        {pngPicture(
+             differencesOnScreen(subject.width, subject.height, comparison.records, subject.tolerance)),
          fmt::format("Difference: red where rsphere is brighter, blue where the original is; colors are full "
                      "at {}",
                      percent(10 * subject.tolerance))}};

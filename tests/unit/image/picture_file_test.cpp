@@ -156,7 +156,7 @@ TEST_F(PictureFiles, AreNeverEmptyOrCut) {
   struct rlimit before {};
   getrlimit(RLIMIT_FSIZE, &before);
   struct rlimit small = before;
-  small.rlim_cur = 300;
+  small.rlim_cur = 100;
   setrlimit(RLIMIT_FSIZE, &small);
   EXPECT_EQ(faultOf(name), "cannot write picture \"" + name + "\": File too large");
   EXPECT_EQ(faultOf(folder + "b.png"), "cannot write picture \"" + folder + "b.png\": File too large");
