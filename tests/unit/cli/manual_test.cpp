@@ -17,7 +17,7 @@ TEST(Manual, OptionsAreCleanText) {
   EXPECT_EQ(text.find("\n'"), std::string::npos);
   for (size_t at = text.find("\n."); at != std::string::npos; at = text.find("\n.", at + 1)) {
     const std::string macro = text.substr(at + 2, 2);
-    EXPECT_TRUE(macro == "TP" || macro == "BI" || macro == "SS") << macro;
+    EXPECT_TRUE(macro == "TP" || macro == "BI" || macro == "SS" || macro == "IP") << macro;
   }
   for (const OptionEntry& entry : optionTable())
     EXPECT_NE(text.find(".BI \\" + std::string(entry.name)), std::string::npos) << entry.name;

@@ -27,7 +27,7 @@ inline std::string contents(const std::string& file) {
 
 inline std::string folder() { return std::string(RSPHERE_TESTS) + "/../man/"; }
 
-// The paragraphs of NAME.options by the first line of each.
+// The texts of NAME.options by the first line of each. A line that begins with '>' begins a paragraph.
 inline std::map<std::string, std::string> paragraphs(const std::string& name) {
   std::istringstream in(contents(folder() + name + ".options"));
   std::map<std::string, std::string> all;
@@ -41,7 +41,10 @@ inline std::map<std::string, std::string> paragraphs(const std::string& name) {
       EXPECT_TRUE(all.insert({option, ""}).second) << option << " has two paragraphs";
     } else {
       std::string& text = all[option];
-      text += (text.empty() ? "" : " ") + line;
+      if (line.starts_with("> "))
+        text += "\n.IP\n" + line.substr(2);
+      else
+        text += (text.empty() ? "" : " ") + line;
     }
   }
   return all;
