@@ -123,9 +123,29 @@ class Formats(InAFolder):
             (PRODUCT, {"ldc/strip.ldt": "x\n"}, r"ldc/strip\.ldt:"),
             (PRODUCT, {"ldc/strip.ldt": b" " * (40 << 20)}, "strip.ldt.* is larger than 16 MB"),
             (PRODUCT, {f"doc/{i}": "" for i in range(10001)}, "more than 10000 files"),
+            ("<Root>" + "<a/>" * 300_000 + "</Root>", {}, "more than 300000 elements"),
+            ("<a>" * 1000 + "</a>" * 1000, {}, "more than 100 in each other"),
+            (b"\xfe\xff\0<\0!", {}, "product.xml.* is not"),
+            ('<?xml version="1.0" encoding="utf-7"?><Root/>', {}, "product.xml.* is not"),
+            (change('id="v1"', ''), {"ldc/strip.ldt": None}, 'has no file "ldc/strip.ldt"'),
+            (change('<File id="ldt"', '<File id="p"'), {}, 'no File "ldt"'),
+            (change(">strip.ldt<", ">strip.ldt&#0;<"), {}, "product.xml:6: is not well-formed XML"),
+            (change(">strip.ldt<", ">strip&#10;.ldt<"), {}, 'has no file "ldc/strip\\?.ldt"'),
+            (change(">strip.ldt<", ">C:\\strip.ldt<"), {}, "leaves its folder"),
+            (change(">strip.ldt<", ">..<"), {}, "leaves its folder"),
+            (change(">strip.ldt<", ">product.xml<"), {}, 'has no file "ldc/product.xml"'),
+            (change("<RatedLuminousFlux>500", "<RatedLuminousFlux>1e10"), {}, "RatedLuminousFlux must be from"),
+            (change('fixedLightSourceId="s1"', 'fixedLightSourceId="s2"'), {}, 'no FixedLightSource "s2"'),
+            (change('photometryId="p1"/>', 'photometryId="p2"/>'), {"ldc/box.ies": BOX.replace("TILT=NONE", "TILT=/etc/passwd")}, "box.ies:2: TILT=/etc/passwd: .*same folder"),
+            (change('photometryId="p1"/>', 'photometryId="p2"/>'), {"ldc/box.ies": BOX.replace("TILT=NONE", "TILT=strip.ldt")}, "box.ies:2: TILT=strip.ldt: .*cannot be read"),
         ):
             with self.subTest(words=words):
                 self.refused(self.gldf(product, members), words)
+        for method in (zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA):  # whose dictionaries may be of 4 GB
+            path = os.path.join(self.folder.name, "other.gldf")
+            with zipfile.ZipFile(path, "w", method) as archive:
+                archive.writestr("product.xml", PRODUCT)
+            self.refused(path, "instead of deflate")
         with open(self.gldf(), "rb") as stream:
             inner = stream.read()
         self.refused(self.gldf(PRODUCT, {"ldc/strip.ldt": inner}), "not a text file")  # an archive in an archive
@@ -133,6 +153,12 @@ class Formats(InAFolder):
         self.refused(self.gldf(), "v2.* has 2 emitters; choose one by --emitter: e1, e2", variant="v2")
         self.refused(self.gldf(), 'no emitter "e2"; it has e1', emitter="e2")
         self.refused(PANEL, "is not a GLDF file, which alone has a variant", variant="v1")
+
+    def test_tilt_files_of_other_folders(self):
+        """A fault in them was printed with their first word, whatever file it was."""
+        for name in ("/etc/passwd", "../../etc/passwd", "..", "C:\\tilt.txt", "a/../lamp.ies"):
+            self.refused(self.file(BOX.replace("TILT=NONE", f"TILT={name}")), "lamp.ies:2: .*in the same folder")
+        self.refused(self.file(BOX.replace("TILT=NONE", "TILT=lamp.ies")), "lamp.ies:1: the lamp's position")  # of itself
 
     def test_each_part_of_an_archive_replaced(self):
         """Whatever bytes are wrong: a fault of one line, or a luminaire."""

@@ -34,7 +34,10 @@ class Archive:
     def read(self, name):
         """The bytes of a member. What it says of its size is not believed."""
         try:
-            with self.zip.open(self.names[name.lower()]) as stream:
+            member = self.zip.getinfo(self.names[name.lower()])
+            if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):  # others may ask for gigabytes of memory
+                raise NotImplementedError(f"method {member.compress_type} instead of deflate")
+            with self.zip.open(member) as stream:
                 data = stream.read(MOST_BYTES + 1)
         except KeyError:
             raise fault(self.file, None, f'has no file "{name[:80]}"') from None

@@ -63,6 +63,8 @@ def tilt_of(file, value, words):
         return read_tilt(words)
     if not value:
         raise fault(file, words.line, "TILT= needs NONE, INCLUDE or the name of a file")
+    if "/" in value or "\\" in value or value in (".", ".."):  # a fault there would print what is in it
+        raise fault(file, words.line, f"TILT={value[:40]}: the file of tilt factors must be in the same folder")
     other = os.path.join(os.path.dirname(file), value)
     try:
         tilt_words = Words(other, lines_of(other), 0)

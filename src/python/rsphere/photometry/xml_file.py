@@ -5,6 +5,7 @@ from xml.parsers import expat
 from ..fault import fault, number
 
 MOST_BYTES = 16 << 20
+MOST_ELEMENTS, DEEPEST = 300_000, 100  # a TM-33 file by degrees has 65,000; each takes some 200 bytes of memory
 
 
 def root_of(data, file):
@@ -17,6 +18,19 @@ def root_of(data, file):
         raise fault(file, scan.CurrentLineNumber, "a document type (<!DOCTYPE) is not read; take it out")
 
     scan.StartDoctypeDeclHandler = refuse
+    open_now, count = 0, 0
+
+    def begin(*_):
+        nonlocal open_now, count
+        open_now, count = open_now + 1, count + 1
+        if count > MOST_ELEMENTS or open_now > DEEPEST:
+            raise fault(file, scan.CurrentLineNumber, f"has more than {MOST_ELEMENTS} elements, or more than {DEEPEST} in each other")
+
+    def end(*_):
+        nonlocal open_now
+        open_now -= 1
+
+    scan.StartElementHandler, scan.EndElementHandler = begin, end
     try:
         scan.Parse(data, True)
         root = ElementTree.fromstring(data)
