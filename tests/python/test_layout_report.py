@@ -109,6 +109,28 @@ class Reports(InAFolder):
         self.assertEqual([r.of for r in report.rows if r.what == "E_m"],
                          ["desk1", "around desk1", "background of desk1", "desk2", "around desk2", "background of desk2", "board", "around board"])
 
+    def test_dark_and_narrow(self):
+        """No luminaire at all; a corridor that is narrower than two margins; eyes above the ceiling."""
+        report = self.report(["task floor 34.2", "eyes spacing 3"], ROOM)
+        self.assertEqual(self.row(report, "floor", "E_m").value, 0)
+        narrow = "\n".join(line.replace(" 5 ", " .8 ") if "polygon" in line else line for line in ROOM.split("\n")) + lamp("tube", (4, .4, 2.9))
+        report = self.report(["task floor 5.1.1", "eyes spacing 3"], narrow)
+        self.assertGreater(self.row(report, "eyes, 1.2 m", "E_m,z").value, 0)
+        report = self.report(["task floor 34.2", "eyes height 9 spacing 3"], ROOM + lamp())
+        self.assertFalse([r for r in report.rows if r.what == "E_m,z" and r.value > 1])
+
+    def test_millimetres(self):
+        """The same room in other units has the same values."""
+        lines = ["task floor 5.1.1", "eyes spacing 4", "ceiling ceiling"]
+        metres = self.report(lines, BLACK + lamp())
+        scaled = (BLACK + lamp()).replace("polygon", "POLYGON")
+        scaled = re.sub(r"(POLYGON \S+ 0 0 12) (.*)", lambda m: m[1] + " " + " ".join(f"{1000 * float(v):.9g}" for v in m[2].split()), scaled).replace("POLYGON", "polygon")
+        other = self.report(["units mm", lines[0], "eyes spacing 4000", lines[2]], scaled)
+        self.assertEqual([(r.of, r.what) for r in metres.rows], [(r.of, r.what) for r in other.rows])
+        for a, b in zip(metres.rows, other.rows):
+            if a.unit != "UGR" and a.value > 0:
+                self.assertAlmostEqual(a.value / b.value, 1, delta=0.03, msg=f"{a} {b}")
+
     def test_distance(self):
         points = np.array([[1, 1], [4, 4], [-3, -4], [2, 3], [7, 1], [3.0, 2.5]])
         np.testing.assert_allclose(distance(L_SHAPE[:, :2], points), [0, 2, 5, 0, 1, 0.5])

@@ -132,6 +132,8 @@ class Report:
     def lit(self, name, values, *others):
         """Values and others without those of points that no light reaches, since these lie inside of furniture."""
         lit = values > DARK * values.mean()
+        if not lit.any():
+            lit[:] = True  # it is dark
         if not lit.all():
             self.notes.append(f"{name}: {(~lit).sum()} of {len(lit)} points are left out, which no light reaches.")
         return values[lit], *(o[lit] for o in others)
@@ -153,9 +155,9 @@ class Report:
     def floor_grid(self):
         """Points on the floor with their illuminances and errors, under nothing."""
         points = self.grid(0.0) + [0, 0, 1.5 * LIFT * self.units]
-        points = points[self.under_nothing(points)]
+        points = points[self.under_nothing(points)] if len(points) else points
         PROGRESS.begin(f"Light on {len(points)} points of the floor")
-        return points, *self.light.on(points, [0, 0, 1.0])
+        return points, *(self.light.on(points, [0, 0, 1.0]) if len(points) else np.zeros((2, 0)))
 
     def task(self, task):
         """Rows of a task, of the area around it and of the background. The illuminance and the area if the task is horizontal."""
@@ -204,8 +206,13 @@ class Report:
     def eyes(self, limit):
         """Cylindrical illuminance and modelling on a grid at the height of eyes, and the grid for glare."""
         above = [0, 0, self.tasks.height * self.units]
-        points = self.grid(SURROUNDING_WIDTH * self.units, self.tasks.spacing) + above
+        narrow = min(np.ptp(p.corners[:, :2], axis=0).min() for p in self.tasks.floor)
+        points = self.grid(min(SURROUNDING_WIDTH * self.units, narrow / 4), self.tasks.spacing) + above
         points = points[self.under_nothing(points)]
+        self.places = [("", p) for p in points] + [(e.name, e.position) for e in self.tasks.eyes]
+        if not len(points):
+            self.notes.append("Eyes: no place is free.")
+            return
         PROGRESS.begin(f"Cylindrical illuminance at {len(points)} places")
         a = self.light.scene.sphere(points, directions=AROUND, outputs="CeHe")
         values, errors, top, top_error, points = self.lit(
@@ -218,7 +225,7 @@ class Report:
         good = ((ratios >= MODELLING[0]) & (ratios <= MODELLING[1])).mean()
         self.rows.append(Row(name, "modelling", None, ratios.mean(), shares.mean(),
                              where=f"{MODELLING[0]:.2f} to {MODELLING[1]:.2f} at {good:.0%} of the places"))
-        self.places = [("", p) for p in points] + [(e.name, e.position) for e in self.tasks.eyes]
+        self.places[: len(self.places) - len(self.tasks.eyes)] = [("", p) for p in points]
 
     def around(self, name, surfaces, limit):
         """Rows of walls or of the ceiling, their parts by area, without those behind furniture."""
@@ -238,6 +245,8 @@ class Report:
 
     def glare(self, activity):
         """The worst UGR of luminaires, at all places and in eight directions: coarsely at first, then the worst ones again."""
+        if not self.places:
+            return
         places = np.array([p for _, p in self.places])
         count, eight = len(places), len(GAZES)
         PROGRESS.begin(f"Glare at {count} places", 2)
