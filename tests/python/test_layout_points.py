@@ -98,6 +98,13 @@ class Layouts(unittest.TestCase):
         planned, found = self.values(run)["illuminance"]
         self.assertAlmostEqual(planned / found, 1, delta=0.012)
 
+    def test_luminaires_aimed_aside(self):
+        """Under the ceiling, half of them was above it, and planned was a fifth above found."""
+        lines = [f"luminaire spot {os.path.join(CASES, 'downlight.ies')}", "grid spot ceiling spacing 4 5 aim 1 0 -1", "illuminance floor 8"]
+        run, _, _ = self.run_on(lines, "", "-c", "32", "-d", "128", "-b", "0")
+        planned, found = self.values(run)["illuminance"]
+        self.assertAlmostEqual(planned / found, 1, delta=0.05)
+
     def test_goals_keep_their_patterns(self):
         """A goal with a pattern reflected as if it had none, light to other goals as well."""
         picture = "void colorfunc dark\n4 .2 .2 .2 .\n0\n0\ndark plastic canvas 0 0 5 1 1 1 0 0\n"

@@ -264,6 +264,12 @@ class Reader(Statements):
         aims, turns, _ = self.orientation(w, {})
         self.add(w, luminaire, position, aims, turns)
 
+    def up(self, luminaire, row):
+        """How far a luminaire reaches up from its middle (m), turned by a matrix with this last row."""
+        photometry = self.design.luminaires[luminaire].photometry
+        x, y, z = np.abs(row) * photometry.size / 2
+        return z + (x + y if photometry.shape == "box" else np.hypot(x, y))
+
     def read_grid(self, w):
         luminaire = self.luminaire(w)
         name = w.text("the name of a polygon")
@@ -271,8 +277,8 @@ class Reader(Statements):
         aims, turns, found = self.orientation(w, {"spacing": (1e-6, 1e9), "margin": (0, 1e9), "drop": (-1e9, 1e9)})
         u = self.design.units
         spacing = np.array([found.get("spacing", 1.2 * u), found.get("across", found.get("spacing", 1.2 * u))])
-        height = self.design.luminaires[luminaire].photometry.size[2] * u
-        drop = found.get("drop", height / 2 + 0.005 * u)
+        reach = max(self.up(luminaire, rotation(aim, turn)[2]) for aim in aims for turn in turns)
+        drop = found.get("drop", (reach + 0.005) * u)
         grid = len({c.row[0] for c in self.design.candidates if c.row})
         before = len(self.design.candidates)
         for p in polygons:
