@@ -42,6 +42,8 @@ def arguments():
     parser.add_argument("-p", "--plan", metavar="NAME", help="polygon or modifier above which plans are drawn: the floor")
     parser.add_argument("--height", type=float, metavar="H", help="of plans above it: that of the goals, or .75 m")
     parser.add_argument("--no-plan", action="store_true", help="no falsecolor plans")
+    parser.add_argument("--polish", action="store_true", help="look for better places and aims between the candidates")
+    parser.add_argument("--judge", default="", metavar="LAYOUT", help="check this layout, such as layout.txt of -o, instead of finding one")
     parser.add_argument("--report", action="store_true", help="on a room with its luminaires, by EN 12464-1")
     parser.add_argument("--accuracy", type=float, default=0.02, metavar="X", help="of the report: standard error of a point")
     parser.add_argument("--activities", action=Activities, nargs=0, help="with their limits, for the report")

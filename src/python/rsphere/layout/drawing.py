@@ -72,7 +72,7 @@ def drawing(design, polygons, candidates, chosen, levels, title, darkest=()):
         size = np.ptp(corners, axis=0)
         if size[0] > 6.2 * len(surface.name) and size[1] > 16:
             names.append(label(surface.name, 10, *free_corner(corners, surface.name, taken), color="#3a6343"))
-    for x, y in to(np.unique(np.round([c.position for c in candidates], 6), axis=0)):
+    for x, y in to(np.unique(np.round([c.position for c in design.candidates], 6), axis=0)):
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.3" fill="#999"/>')
     for eye in design.eyes.values():
         x, y = to(eye.position)

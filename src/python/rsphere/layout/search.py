@@ -7,9 +7,12 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_matrix, csr_matrix
 
 from ..fault import fault
+from ..progress import PROGRESS
 
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once
+OTHERS = 2  # layouts of equal watts that are looked for
+ELSEWHERE = 0.25  # of the luminaires: how many of another layout hang where none of the first do
 EVEN = 1e-3  # of a spacing: rows are as far apart as others
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
 
@@ -21,6 +24,7 @@ class Layout:
     bound: float  # no layout takes less (W); 0 if that is not known
     misses: list  # (scene, goal, by what share of its size), if not all goals are met
     proven: bool  # that these goals cannot all be met; otherwise the time was too short
+    others: object  # function of seconds: other layouts of equal watts, as indices of candidates
 
 
 class Program:
@@ -193,15 +197,15 @@ def constrain_goal(program, row, variables, slack=None):
         program.constrain(variables, coefficients, -np.inf, -constant)
 
 
-def build(design, candidates, watts, scenes, elastic):
-    """scenes: the rows of each. elastic: goals may be missed, which is what costs; slacks are by goal."""
+def build(design, candidates, watts, scenes, elastic, dimmed):
+    """scenes: the rows of each. elastic: goals may be missed, which is what costs; slacks are by goal. dimmed: cost of levels, by watts."""
     program, slacks, by_scene = Program(), [], []
     x = program.variables(len(candidates), 1e-6 * watts if elastic else watts, integer=True)
     arrange(program, design, candidates, x)
     for s, rows in enumerate(scenes):
         levels = x
         if design.dims():
-            levels = program.variables(len(candidates), 1e-9 * watts)
+            levels = program.variables(len(candidates), dimmed / len(scenes) * watts)
             for i in range(len(candidates)):
                 program.constrain([levels[i], x[i]], [1, -1], -1, 0)
         by_scene.append(levels)
@@ -247,14 +251,14 @@ class Rows:
 class Solver:
     """Solves until no row is missed that was left out; what time is left goes into better layouts."""
 
-    def __init__(self, design, candidates, watts, scenes, elastic):
-        self.design, self.candidates, self.watts, self.elastic = design, candidates, watts, elastic
+    def __init__(self, design, candidates, watts, scenes, elastic, dimmed):
+        self.design, self.candidates, self.watts, self.elastic, self.dimmed = design, candidates, watts, elastic, dimmed
         self.rows = Rows(scenes)
         self.build()
 
     def build(self):
         """Rows that are added leave the numbers of the variables as they are."""
-        self.program, self.x, self.levels, self.slacks = build(self.design, self.candidates, self.watts, self.rows.taken(), self.elastic)
+        self.program, self.x, self.levels, self.slacks = build(self.design, self.candidates, self.watts, self.rows.taken(), self.elastic, self.dimmed)
 
     def missed(self, found):
         """Whether rows are missed that were left out; then they are there from now on."""
@@ -282,6 +286,8 @@ class Solver:
         position = np.array([c.position[:2] for c in self.candidates])
         free, failed = min(60, len(position)), 0
         while time.monotonic() < end and best.fun > bound + gap * abs(best.fun):
+            if not self.elastic:
+                PROGRESS.show(f"Search: {best.fun:.0f} W found, none takes less than {bound:.0f} W, {end - time.monotonic():.0f} s left")
             middle = position[random.choice(len(position))]
             others = np.argsort(np.hypot(*(position - middle).T), kind="stable")[free:]
             found = self.program.solve(min(3.0, max(end - time.monotonic(), 0.1)), 1e-4, self.x[others], np.round(best.x[self.x[others]]))
@@ -294,14 +300,30 @@ class Solver:
         return best
 
 
-def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
-    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene."""
-    solver = Solver(design, candidates, watts, scenes, False)
+    def others(self, best, seconds):
+        """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere."""
+        known, end = [np.flatnonzero(best.x[self.x] > 0.5)], time.monotonic() + seconds
+        while len(known) <= OTHERS and time.monotonic() < end:
+            self.build()
+            self.program.constrain(self.x, self.watts, 0, float(self.watts[known[0]].sum()) + 1e-6)
+            for here in known:
+                self.program.constrain(self.x[here], np.ones(len(here)), 0, len(here) - max(1, round(ELSEWHERE * len(here))))
+            found = self.program.solve(max(end - time.monotonic(), 0.1), 1.0)
+            if found.x is None:
+                break
+            if not self.missed(found):
+                known.append(np.flatnonzero(found.x[self.x] > 0.5))
+        return known[1:]
+
+
+def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e-9):
+    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those."""
+    solver = Solver(design, candidates, watts, scenes, False, dimmed)
     found = solver.solve(seconds, gap)
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
     proven = found.status == 2  # not just out of time
     if found.x is None:
-        solver = Solver(design, candidates, watts, scenes, True)
+        solver = Solver(design, candidates, watts, scenes, True, dimmed)
         found = solver.solve(seconds, gap)
         if found.x is None:
             raise fault(design.file, None, "the arrangement (rows, mirror, apart, most) leaves no layout")
@@ -311,7 +333,7 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005):
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
     levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
-    return Layout(chosen, levels, bound, misses, proven)
+    return Layout(chosen, levels, bound, misses, proven, lambda more: solver.others(found, more))
 
 
 def most_of(design, candidates, row, seconds):

@@ -13,9 +13,11 @@ from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
 from .forward import Forward, daylight_of
+from .polish import SHARES as ROUNDS
+from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
 from .room import plan_of, read_polygons
-from .search import most_of, search
+from .search import Layout, most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
 from .wanted import Light, answers, light_of, receiver_of, rows_of
@@ -23,6 +25,12 @@ from .wanted import Light, answers, light_of, receiver_of, rows_of
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
 SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
+OTHERS_SHARE = 0.1  # of it, for layouts of equal watts
+POLISH_SHARE, POLISH_GAP = 0.3, 1e-4  # of it for each round of polishing, whose search is a small one
+POLISH_DIMMED = 0.01  # what watts of levels cost there, in watts of luminaires: dimmed ones are to take less, too
+POLISH_REPEATS = 2  # of its search, with what luminaires as built have shown
+ALIKE = 0.005  # the worst goals of two layouts are missed by shares that differ by less: they are equally good
+LESS = 1e-3  # of the watts: polishing saves more, or the layout stays
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
 DARKEST_TOLD = 3  # on the terminal, the most uneven ones; the page has all
@@ -52,6 +60,7 @@ class Steps:
         self.title = given.title or f"Layout for {os.path.basename(given.goals)}"
         self.rows = []  # of the table: (scene, goal, planned, found)
         self.miss_texts = {}  # by scene and goal
+        self.faults, self.checked = [], []  # of a layout that is judged; by polishing, the Answers of each scene
 
     def timed(self, name, function):
         begin = time.monotonic()
@@ -64,19 +73,110 @@ class Steps:
         with tempfile.TemporaryDirectory() as folder:
             d = self.design
             self.transfer = Transfer(self.rsphere, self.given.room, d, folder, self.given.bounces)
-            self.candidates = d.candidates
-            self.watts = np.array([d.luminaires[c.luminaire].watts for c in d.candidates])
-            self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
-            self.light = light_of(self.transfer, d.candidates, self.matrix)
-            self.check_sides()
-            self.daylight = [self.daylight_in(s) for s in d.all_scenes()]
-            print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
-                  f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
-            self.find_layout(folder)
+            self.daylight, self.polished = [self.daylight_in(s) for s in d.all_scenes()], ""
+            if self.given.judge:
+                self.take_layout(folder)
+            else:
+                self.use(d.candidates)
+                self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
+                self.light = light_of(self.transfer, d.candidates, self.matrix)
+                self.check_sides()
+                print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
+                      f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
+                self.find_layout(folder)
+                if self.given.polish:
+                    self.polish(folder)
             self.tell_layout()
             self.check()
             self.tell_points()
             self.pages()
+
+    def use(self, candidates):
+        self.candidates = list(candidates)
+        self.watts = np.array([self.design.luminaires[c.luminaire].watts for c in candidates])
+
+    def take_layout(self, folder):
+        """A layout that is to be judged, planned as built."""
+        layout, levels = read_layout(self.given.judge, self.design)
+        self.faults = not_allowed(self.design, layout)
+        self.timed("light", lambda: self.transfer.prepare(self.design.candidates))  # points that all candidates leave dark take no part
+        self.use(layout)
+        self.matrix = None
+        self.layout = Layout(np.arange(len(layout)), list(levels), 0.0, [], False, lambda seconds: [])
+        self.timed("plan", lambda: self.plan_as_built(folder))
+
+    def worst(self):
+        """By what share of it the worst goal of the layout is missed, as built; 0 if all are met."""
+        return max(0.0, *(self.shortfall(a) for s in range(len(self.daylight)) for a in self.planned(s)))
+
+    def cost(self):
+        """Watts of the luminaires, and of these as they are dimmed, on average over the scenes."""
+        return float(self.watts[self.layout.chosen].sum()), float(np.mean([self.scene_watts(levels) for levels in self.layout.levels]))
+
+    def polish(self, folder):
+        """Looks for luminaires beside those of the layout, by the importance there. Light traced forward decides whether they stay."""
+        d = self.design
+        if d.rows or not len(self.layout.chosen):
+            print("Polish: rows stay where they are." if d.rows else "Polish: there is no luminaire.")
+            return
+        before = self.candidates, self.watts, self.light, self.layout, self.planned_light
+        cost, worst, room = self.cost(), self.worst(), spaces(d, self.candidates)
+        for turn in range(len(ROUNDS)):
+            more, room_more = neighbours(d, self.candidates, self.layout.chosen, room, turn)
+            if not more:
+                break
+            count, old = len(self.candidates), (self.layout, self.planned_light, self.cost(), self.worst())
+            matrix = self.timed("polish", lambda: self.transfer.matrix(more, self.given.directions))  # noqa: B023
+            self.light = joined(self.light, light_of(self.transfer, more, matrix))
+            self.use([*self.candidates, *more])
+            room = np.concatenate([room, room_more])
+            pool = np.concatenate([self.layout.chosen, np.arange(count, len(self.candidates))])
+            factors = [self.factors_as_built(s, {}) for s in range(len(self.daylight))]
+            for _ in range(POLISH_REPEATS):
+                layout = self.timed("polish", lambda: self.searched(factors, POLISH_SHARE * self.given.seconds, pool))  # noqa: B023
+                layout.bound, layout.proven = self.layout.bound, self.layout.proven
+                self.layout = layout
+                self.timed("polish", lambda: self.plan_as_built(folder))
+                if self.worst() <= old[3] + ALIKE:
+                    break
+                factors = [self.factors_as_built(s, f) for s, f in enumerate(factors)]
+            if not self.better(self.cost(), self.worst(), old[2], old[3]):
+                self.layout, self.planned_light = old[:2]
+        less, missed = self.cost(), self.worst()
+        if self.layout is before[3]:
+            self.polished = "nothing beside the candidates is better"
+        elif self.holds(before, folder):
+            self.polished = (f"{less[1]:.1f} W instead of {cost[1]:.1f} W" + f", {less[0]:g} W instead of {cost[0]:g} W undimmed" * (d.dims() and less[0] != cost[0])
+                             + f"; the worst goal is missed by {missed:.1%} instead of {worst:.1%}" * (worst > 1e-3))
+        else:
+            self.candidates, self.watts, self.light, self.layout, self.planned_light = before
+            self.polished = "light traced forward does not confirm what was planned; the layout stays"
+        print(f"Polish: {self.polished} ({self.seconds['polish']:.1f} s)")
+
+    @staticmethod
+    def better(cost, worst, old_cost, old_worst):
+        """A layout that misses less, or else one that takes less: luminaires first, then levels."""
+        if abs(worst - old_worst) > ALIKE:
+            return worst < old_worst
+        return cost[0] < old_cost[0] - LESS * old_cost[0] or (cost[0] <= old_cost[0] + 1e-6 and cost[1] < old_cost[1] * (1 - LESS))
+
+    def holds(self, before, folder):
+        """Whether light traced forward meets every goal, or comes as near to it as with the layout before."""
+        if not self.given.check:
+            return True
+        after, short = (self.candidates, self.watts, self.light, self.layout, self.planned_light), []
+        for state in (before, after):
+            self.candidates, self.watts, self.light, self.layout, self.planned_light = state
+            self.checked = [self.timed("polish", lambda: self.traced(s, scene, folder)) for s, scene in enumerate(self.design.all_scenes())]  # noqa: B023
+            short.append([0.0 if a.met(TOLERANCE) else self.shortfall(a) for answers_of in self.checked for a in answers_of])
+        good = bool((np.array(short[1]) <= np.array(short[0]) + LESS).all())
+        self.checked = self.checked if good else []
+        return good
+
+    def traced(self, s, scene, folder):
+        """What light traced forward finds for the goals of a scene, with the luminaires written into a folder."""
+        with raypath(folder):
+            return self.found(scene, write_lamps(self.design, self.candidates, self.layout.chosen, self.layout.levels[s], folder, "polished"))
 
     def check_sides(self):
         """Raises Fault for a surface or sensor that all candidates together hardly light: it faces a wall, or out of the room."""
@@ -146,25 +246,29 @@ class Steps:
             found[key] = (max if kind in ("ugr", "most") else min)(ratio, before.get(key, 1.0))
         return found
 
-    def searched(self, factors, seconds):
+    def searched(self, factors, seconds, pool=None):
+        """pool: the candidates that a polished layout may have."""
         PROGRESS.begin("Search", seconds=seconds)
-        scenes = [rows_of(self.transfer, s.goals, self.light, day, f)
+        light = self.light if pool is None else chosen_light(self.light, pool)
+        scenes = [rows_of(self.transfer, s.goals, light, day, f)
                   for s, day, f in zip(self.design.all_scenes(), self.daylight, factors)]
-        return search(self.design, self.candidates, self.watts, scenes, seconds, self.given.gap)
+        if pool is None:
+            return search(self.design, self.candidates, self.watts, scenes, seconds, self.given.gap)
+        layout = search(self.design, [self.candidates[j] for j in pool], self.watts[pool], scenes, seconds, POLISH_GAP, POLISH_DIMMED)
+        layout.chosen = pool[layout.chosen]
+        return layout
 
     def light_of_chosen(self):
         """The light of the chosen luminaires as points, which hide nothing."""
-        chosen = self.layout.chosen
-        return Light([a[:, chosen] for a in self.light.direct], self.light.sets[:, :, chosen],
-                     {k: v[chosen] for k, v in self.light.glare.items()})
+        return chosen_light(self.light, self.layout.chosen)
 
     def plan_as_built(self, folder):
         """The light of the chosen luminaires once more, where they hang: they hide and absorb light, as bodies."""
         d, chosen = self.design, self.layout.chosen
-        self.planned_light = self.light_of_chosen()
-        lamps, files = [self.candidates[j] for j in chosen], list(self.given.room)
-        if not lamps:
+        if not len(chosen):
+            self.planned_light = self.light_of_chosen()
             return
+        lamps, files = [self.candidates[j] for j in chosen], list(self.given.room)
         files.append(write_lamps(d, self.candidates, chosen, np.ones(len(chosen)), folder, "bodies"))
         with raypath(folder):
             transfer = Transfer(self.rsphere, files, d, folder, self.given.bounces, fine=True)
@@ -201,8 +305,18 @@ class Steps:
         # The program asks for all that is wanted; what is nearer than the check's tolerance counts as met.
         layout.misses = [m for m in layout.misses if not next(a for a in self.planned(m[0]) if a.goal is m[1]).met(TOLERANCE)]
         total = float(self.watts[layout.chosen].sum())
-        bound = f"; none takes less than {layout.bound:.0f} W" if layout.bound > 0 else ""
-        print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds['search']:.1f} s)")
+        gap = f" ({1 - layout.bound / total:.1%} less)" if total - layout.bound > 0.5 else ""
+        bound = f"; none takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else ""
+        print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds.get('search', 0):.1f} s)")
+        self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge or d.dims()) else []
+        for k, other in enumerate(self.others):
+            name = f"layout{k + 2}.txt"
+            self.write(name, layout_text(d, self.candidates, other, [np.ones(len(other))] * len(layout.levels)))
+            elsewhere = len(set(other) - set(layout.chosen))
+            print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts: {name}; not checked")
+        self.write("layout.txt", layout_text(d, self.candidates, layout.chosen, layout.levels))
+        for text in self.faults:
+            print(f"Not allowed: {text}")
         for s, goal, slack in layout.misses:
             name = d.all_scenes()[s].name
             text = self.miss_texts[s, id(goal)] = f"{self.miss_text(s, goal)}{self.remedy(s, goal)}"
@@ -242,7 +356,9 @@ class Steps:
             self.files.append(file)
             planned = self.planned(s)
             found = [None] * len(planned)
-            if self.given.check and len(self.layout.chosen):
+            if self.checked:
+                found = self.checked[s]  # the light is the same
+            elif self.given.check and len(self.layout.chosen):
                 found = self.timed(f"check {s}", lambda: self.found(scene, file))  # noqa: B023
             self.rows += [(scene, p.goal, p, f) for p, f in zip(planned, found)]
         self.tell_table()
@@ -279,8 +395,7 @@ class Steps:
         text = "\n".join(lines) + "\n"
         print(text, end="")
         print(self.verdict())
-        with open(os.path.join(self.given.output, "table.txt"), "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(text + self.verdict() + "\n")
+        self.write("table.txt", text + self.verdict() + "\n")
 
     def differences(self, kind):
         """How far what was planned is from what is found: by goals of a kind, None for illuminances (ratios)."""
@@ -291,7 +406,7 @@ class Steps:
         return all(d <= most for kind, most in AGREE.items() for d in self.differences(kind))
 
     def met(self):
-        return not self.layout.misses and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
+        return not self.layout.misses and not self.faults and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
 
     def verdict(self):
         if not any(f for *_, f in self.rows):
@@ -337,8 +452,7 @@ class Steps:
             title = self.layout_title(scene, levels)
             darkest = [place for name, place in self.darkest if name == scene.name]
             svg = drawing(d, self.polygons, self.candidates, self.layout.chosen, levels, title, darkest)
-            with open(os.path.join(self.given.output, f"layout_{scene.name}.svg" if scene.name else "layout.svg"), "w", encoding="utf-8", errors="replace") as stream:
-                stream.write(svg)
+            self.write(f"layout_{scene.name}.svg" if scene.name else "layout.svg", svg)
             page.heading(title)
             page.figure(svg)
             page.note(self.load(levels))
@@ -350,15 +464,25 @@ class Steps:
         page.add(table(self.head(), list(self.table_rows()), 3 if d.scenes else 2))
         for line in self.points_text:
             page.note(f"{line}.")
-        page.note(f"Planned: by the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard "
-                  f"error {self.matrix_error():.1%}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
+        for line in self.faults:
+            page.banner(False, f"Not allowed: {line}")
+        if self.polished:
+            page.note(f"Polished between the candidates: {self.polished}.")
+        if self.others:
+            page.note(f"{len(self.others)} other layouts take as many watts: {', '.join(f'layout{k + 2}.txt' for k in range(len(self.others)))}, not checked.")
+        planned = (f"the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard error "
+                   f"{self.matrix_error():.1%}") if self.matrix else f"the importance of the goals at the luminaires, {self.given.bounces} reflections"
+        page.note(f"Planned: by {planned}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
                   f"standard error. A goal is met if what is found keeps it within {TOLERANCE:.0%}, a limit of UGR within .1.")
         page.heading("Luminaires")
         page.add(table(["number", "luminaire", "x", "y", "z", "turn", "aim", *(s.name or "level" for s in d.all_scenes())], list(self.lamp_rows()), 2))
         page.note(f"Scene text: {', '.join(os.path.basename(f) for f in self.files)}. Seconds: "
                   + ", ".join(f"{k} {v:.1f}" for k, v in self.seconds.items()) + ".")
-        with open(os.path.join(self.given.output, "page.html"), "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(page.html())
+        self.write("page.html", page.html())
+
+    def write(self, name, text):
+        with open(os.path.join(self.given.output, name), "w", encoding="utf-8", errors="replace") as stream:
+            stream.write(text)
 
     def layout_title(self, scene, levels):
         """The watts are those of the luminaires, and as they are dimmed where this is less."""
@@ -380,6 +504,17 @@ class Steps:
             yield [str(n + 1), self.design.luminaires[c.luminaire].name, *(f"{v:.3f}" for v in c.position), f"{c.turn:g}",
                    " ".join(f"{v + 0.0:.2g}" for v in c.aim),
                    *(f"{levels[n]:.0%}" for levels in self.layout.levels)]
+
+
+def chosen_light(light, chosen):
+    """The Light of some of the candidates."""
+    return Light([a[:, chosen] for a in light.direct], light.sets[:, :, chosen], {k: v[chosen] for k, v in light.glare.items()})
+
+
+def joined(light, more):
+    """The Light of the candidates of both."""
+    return Light([np.hstack([a, b]) for a, b in zip(light.direct, more.direct)], np.concatenate([light.sets, more.sets], axis=2),
+                 {k: np.concatenate([v, more.glare[k]]) for k, v in light.glare.items()})
 
 
 def shown(goal, value, error=False):

@@ -241,18 +241,24 @@ class Transfer:
         return luminaire.photometry.intensity(directions @ candidate.matrix()) * factor
 
     def matrix(self, candidates, directions, zone_count=500):
-        """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets."""
+        """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets. Points are those of the first call."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
+        self.prepare(candidates)
+        sets = self.sets(candidates, zones, directions // SETS)
+        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]],
+                      {i: np.array([means(values[there]) for values in sets]) for i, (there, means) in self.cells.items()})
+
+    def prepare(self, candidates):
+        """Light straight from candidates, and before the first ones the points and the scenes of goals."""
         self.points = Direct(self, candidates)
+        if self.groups:
+            return
         if not self.fine:
             self.leave_out_covered(candidates)
         self.add_surfaces()
         self.add_probes()
         if self.fine:
             self.add_cells()
-        sets = self.sets(candidates, zones, directions // SETS)
-        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]],
-                      {i: np.array([means(values[there]) for values in sets]) for i, (there, means) in self.cells.items()})
 
     def leave_out_covered(self, candidates):
         """Leaves out the points of surfaces that no candidate lights and something covers that is nearer than all candidates."""

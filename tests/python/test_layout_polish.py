@@ -1,0 +1,128 @@
+"""Layouts between the candidates, layouts that are judged, and layouts of equal watts.
+
+PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the package rsphere.
+"""
+import os
+import re
+import unittest
+
+import numpy as np
+
+from rsphere.fault import Fault
+from rsphere.layout.design import read_design
+from rsphere.layout.polish import SHARES, TILTS, layout_text, neighbours, not_allowed, read_layout, spaces, tilted
+from rsphere.layout.room import read_polygons
+from run_here import InAFolder, built, run_here
+from test_layout_points import CASES, ROOM
+
+SPOT = f"luminaire spot {os.path.join(CASES, 'downlight.ies')}"
+DESK = "white polygon desk 0 0 12 1.2 1 .75 2.8 1 .75 2.8 1.8 .75 1.2 1.8 .75\n"
+
+
+class Places(InAFolder):
+    def design(self, *lines):
+        room, goals = self.file(ROOM + DESK, "room.rad"), self.file("\n".join([SPOT, *lines, "illuminance desk 100"]), "goals.txt")
+        return read_design(goals, read_polygons([room]))
+
+    def layout(self, text, design):
+        return read_layout(self.file(text, "layout.txt"), design)[0]
+
+    def test_neighbours(self):
+        """Around a place of a grid, along a line, and of a single place; aims turn only where they are not straight down."""
+        design = self.design("grid spot ceiling spacing 2 2.5 drop .1", "place spot 1 1 2.5 aim 0 1 -1", "place spot 2 1 2.4", "place spot 2.5 1 2.4")
+        c, room = design.candidates, spaces(design, design.candidates)
+        np.testing.assert_allclose(room[[0, 8, 9, 10]], [[1, 1.25], [0, 0], [0.25, 0], [0.25, 0]])
+        for turn, share in enumerate(SHARES):
+            found, more = neighbours(design, c, [0, 8, 9], room, turn)
+            self.assertEqual(len(found), 8 + 4 + 2)
+            moved = np.array([n.position for n in found[:8]]) - c[0].position
+            self.assertEqual({tuple(np.round(m, 9)) for m in moved},
+                             {(2 * share * a, 2 * share * b * 1.25, 0) for a in (-1, 0, 1) for b in (-1, 0, 1) if a or b})
+            np.testing.assert_allclose([n.aim @ c[8].aim for n in found[8:12]], np.cos(np.radians(TILTS[turn])))
+            np.testing.assert_array_equal(more[:8], np.tile(room[0], (8, 1)))
+        self.assertLess(sum(SHARES), 0.5)
+
+    def test_tilted(self):
+        aim = np.array([0.6, 0, -0.8])
+        np.testing.assert_allclose(tilted(aim, (0, 1), 90), [0, -1, 0], atol=1e-12)
+        np.testing.assert_allclose(tilted(aim, (1, 0), 90), [0.8, 0, 0.6], atol=1e-12)
+
+    def test_what_is_allowed(self):
+        grid = "grid spot ceiling spacing 2 2.5 drop .1"  # x 1 3 5 7, y 1.25 3.75, z 2.9
+        aside = "place spot 4 1 2.5 aim 0 1 -1"
+        for lines, text, words in (
+            ([grid], "spot 1 1.25 2.9 0 0 -1 0 1", ""), ([grid], "spot 1.9 2.3 2.9 0 0 -1 0 1", ""), ([grid], "spot 1 1.25 2.8 0 0 -1 0 1", "1 spot hangs where none"),
+            ([grid], "spot -.1 1.25 2.9 0 0 -1 0 1", "1 spot hangs"), ([grid], "spot 1 1.25 2.9 0 0 -1 45 1", "1 spot hangs"),
+            ([grid], "spot 1 1.25 2.9 0 .1 -1 0 1", "1 spot hangs"), ([grid, aside], "spot 4 1 2.5 0 1 -.9 0 1", ""),
+            ([grid, aside], "spot 4 1 2.5 0 1 -.5 0 1", "1 spot hangs"), ([grid, aside], "spot 4 1.1 2.5 0 1 -1 0 1", "1 spot hangs"),
+            ([grid], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 1.1 1.25 2.9 0 0 -1 0 1", "1 and 2 overlap"), ([grid, "most 1"], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 3 1.25 2.9 0 0 -1 0 1", "more than 1"),
+            ([grid, "apart 1"], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 1.9 1.25 2.9 0 0 -1 0 1", "1 and 2 overlap or are too near"),
+            ([grid, "mirror x 4"], "spot 1 1.25 2.9 0 0 -1 0 1", "not symmetric about x = 4"),
+            ([grid, "mirror x 4"], "spot 1.5 1.25 2.9 0 0 -1 0 1\nspot 6.5 1.25 2.9 0 0 -1 0 1", ""),
+            ([grid, "rows"], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 3 1.25 2.9 0 0 -1 0 1", ""),
+            ([grid, "rows"], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 3 3.75 2.9 0 0 -1 0 1", "not in rows"),
+            ([grid, "rows"], "spot 1 1.25 2.9 0 0 -1 0 1\nspot 3.2 1.25 2.9 0 0 -1 0 1", "not in rows"),
+        ):
+            with self.subTest(lines=lines, text=text):
+                design = self.design(*lines)
+                found = not_allowed(design, self.layout(text, design))
+                self.assertRegex("; ".join(found), words or r"\A\Z")
+
+    def test_files_of_layouts(self):
+        design = self.design("grid spot ceiling spacing 2 2.5 drop .1", "scene day", "illuminance floor 20", "scene night", "illuminance floor 10")
+        text = layout_text(design, design.candidates, [1, 5], [[1, 0.25], [0.5, 0]])
+        layout, levels = read_layout(self.file(text, "layout.txt"), design)
+        np.testing.assert_allclose([c.position for c in layout], [design.candidates[j].position for j in (1, 5)])
+        np.testing.assert_allclose(levels, [[1, 0.25], [0.5, 0]])
+        for text, line, words in (
+            ("panel 1 1 1 0 0 -1 0 1 1", 1, 'no luminaire "panel" in the goals; there are spot'), ("# none\nspot 1 1", 2, "z of the place"), ("", None, "there is no luminaire"),
+            ("spot 1 1 1 0 0 0 0 1 1", 1, "aim must not be 0 0 0"), ("spot 1 1 1 0 0 -1 0 1 2", 1, "level in night must be from 0 to 1"),
+            ("spot 1 1 1 0 0 -1 0 1", 1, "needs the level in night"), ("spot 1 1 1 0 0 -1 0 1 1 1", 1, '"1" is not expected'), ("spot 1 nan 1 0 0 -1 0 1 1", 1, "must be a number"),
+        ):
+            with self.subTest(text=text):
+                with self.assertRaises(Fault) as caught:
+                    self.layout(text + "\n", design)
+                self.assertRegex(str(caught.exception), r"layout\.txt:" + (f"{line}: " if line else " ") + ".*" + re.escape(words))
+        with self.assertRaisesRegex(Fault, "are not dimmed"):
+            self.layout("spot 1 1 1 0 0 -1 0 .5\n", self.design("grid spot ceiling"))
+
+    def run_on(self, lines, *options):
+        room, goals = self.file(ROOM + DESK, "room.rad"), self.file("\n".join([SPOT, *lines]), "goals.txt")
+        return run_here([built("rsphere-layout"), goals, room, "-o", os.path.join(self.folder.name, "out"), "--no-plan", "-d", "128", "-b", "1", "-c", "16", *options])
+
+    def test_polished(self):
+        """Spots that are dimmed take less beside their candidates, light traced forward agrees, and judges the layout as it was found."""
+        lines = ["dimming yes", "grid spot ceiling spacing 2 2.5 drop .2", "illuminance desk 150 uniformity .3"]
+        run = self.run_on(lines, "--polish", "-s", "5")
+        less, watts = (float(w) for w in re.search(r"Polish: ([0-9.]+) W instead of ([0-9.]+) W", run.stdout).groups())
+        self.assertLess(less, 0.9 * watts, run.stdout)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        found = re.search(r"(?m)^illuminance +desk +150 lx +[0-9]+ lx +([0-9]+) lx", run.stdout)[1]
+        again = self.run_on(lines, "--judge", os.path.join(self.folder.name, "out/layout.txt"))
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        self.assertIn(f"dimmed: {less:.0f} W", again.stdout)
+        self.assertAlmostEqual(float(re.search(r"(?m)^illuminance +desk +150 lx +[0-9]+ lx +([0-9]+) lx", again.stdout)[1]), float(found), delta=3)
+        self.assertRegex(self.run_on([*lines, "rows"], "--polish", "-c", "0").stdout, "Polish: rows stay")
+
+    def test_judged_and_not_allowed(self):
+        layout = self.file("spot 2 1.4 2 0 0 -1 0 1\n", "mine.txt")
+        run = self.run_on(["grid spot ceiling spacing 2 2.5 drop .2", "illuminance desk 100"], "--judge", layout)
+        self.assertIn("Not allowed: 1 spot hangs where none may", run.stdout)
+        self.assertRegex(run.stdout, r"(?m)^illuminance +desk +100 lx .* yes$")
+        self.assertEqual(run.returncode, 2)
+
+    def test_layouts_of_equal_watts(self):
+        """Any of the spots lights the floor enough; one of others is a file that can be judged."""
+        lines = ["place spot 4 2.5 2.8", "place spot 3.6 2.5 2.8", "place spot 4.4 2.5 2.8", "illuminance floor 10"]
+        run = self.run_on(lines, "-c", "0")
+        self.assertRegex(run.stdout, r"Layout: 1 luminaires, 13 W; none takes less than 13 W")
+        self.assertRegex(run.stdout, r"(?m)^1 luminaires, 1 of them elsewhere, take as many watts: layout2\.txt; not checked$")
+        texts = set()
+        for name in ("layout.txt", "layout2.txt", "layout3.txt"):
+            with open(os.path.join(self.folder.name, "out", name), encoding="utf-8") as stream:
+                texts.add(stream.read().splitlines()[1])
+        self.assertEqual(len(texts), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
