@@ -3,7 +3,7 @@ import html
 import math
 
 LEFT, RIGHT, TOP, BOTTOM = 60, 620, 40, 315
-STYLES = (("#1b6fb3", ""), ("#d95f02", ""), ("#d95f02", "2 4"), ("#1b9e77", "6 4"), ("#7570b3", "6 4"))
+STYLES = (("#1b6fb3", ""), ("#e7298a", ""), ("#d95f02", ""), ("#d95f02", "2 4"), ("#1b9e77", "6 4"), ("#7570b3", "6 4"))
 
 
 def curve_drawing(curves):

@@ -49,6 +49,33 @@ FAULTS = (
     (2, "daylight sky.rad", 3, "daylight belongs to a scene"),
     (2, "scene morning\ndaylight .", 4, 'there is no file ".*[.]"'),
     (2, "rows odd", 3, 'rows are even, or "uneven", not "odd"'),
+    (2, "illuminance desk1 500 spacing 1 0", 3, "the spacing must be from"),
+    (2, "illuminance desk1 500 spacing 1 1 1", 3, '"1" is none of'),
+    (2, "illuminance desk1 1e8", 3, "illuminance .* must be from"),
+    (2, "illuminance desk* 500\nilluminance desk3 200", 4, "a second goal of illuminance for desk3"),
+    (2, "illuminance [z-a] 500", 3, 'no polygon or modifier "\\[z-a\\]"'),
+    (2, "eye me 1 1 1.2\neye me 2 2 1.2", 4, '"me" is named twice'),
+    (2, "eye me 1 1 1.2 1 0 0\nugr me 50", 4, "limit of UGR must be from 5 to 40"),
+    (2, "eye me 1 1 1.2\nilluminance me 100", 4, "me is an eye; goals of eyes"),
+    (2, "sensor s 1 1 1 0 0 1\nilluminance s 100 uniformity .5", 4, "a sensor has no uniformity"),
+    (2, "sensor s 1 1 1 0 0 0", 3, "must not be 0 0 0"),
+    (2, "mirror z 1", 3, 'mirror needs x or y, not "z"'),
+    (2, "mirror x", 3, "needs the coordinate"),
+    (2, "most 0", 3, "number of luminaires must be from 1"),
+    (2, "most 2.5", 3, "must be a whole number"),
+    (2, "apart -1", 3, "must be from 0"),
+    (2, "dimming maybe", 3, 'dimming must be yes or no, not "maybe"'),
+    (2, "scene day\nscene day", 4, 'two scenes "day"'),
+    (2, "scene day", 3, "the scene day has no goals"),
+    (0, "luminaire panel panel.ies watts 1e9", 1, "the watts must be from"),
+    (0, "luminaire panel panel.ies factor 0", 1, "factor on the light must be from"),
+    (0, "luminaire panel panel.ies\nluminaire panel panel.ies", 2, 'two luminaires "panel"'),
+    (0, "luminaire panel /", 1, "cannot be read"),
+    (0, "maintenance 1.1\n" + GOOD[0], 1, "maintenance factor must be from"),
+    (1, "place panel 1 1 2.5 spacing 1", 2, '"spacing" is none of aim, turn'),
+    (1, "grid panel ceiling turn 400", 2, "turn must be from -360"),
+    (1, "grid panel ceiling drop 1e4", 2, "a luminaire is far from the scene"),
+    (1, "grid panel", 2, "grid needs the name of a polygon"),
     (2, "# nothing is wanted", None, "there is no goals"),
 )
 
@@ -123,7 +150,8 @@ class Goals(unittest.TestCase):
         self.assertEqual(len(found), 2)
         self.assertEqual(found[0], found[1])
         self.assertIn(f"3 of 3 runs of 3000 come to {found[0]} W", run.stdout)
-        self.assertEqual(len(figure.getElementsByTagName("circle")), 5)
+        self.assertIn(f"gradient descent: 3 of 3 runs come to {found[0]} W", run.stdout)
+        self.assertEqual(len(figure.getElementsByTagName("circle")), 6)
 
     def test_curve_needs_goals_that_can_be_met(self):
         for lines, words in (([*GOOD[:2], "illuminance desk1 50000"], "no layout was found"), ([*GOOD, "dimming yes"], "without scenes")):
