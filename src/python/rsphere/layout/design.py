@@ -316,6 +316,8 @@ class Reader(Statements):
                 back = True
             elif key in options:
                 found[key] = w.number(f"the {key}", *options[key])
+                if key == "spacing" and w.more_number():
+                    found[key] = [found[key], w.number("the spacing", *options[key])]
             else:
                 raise w.fault(f'"{key[:40]}" is none of {", ".join(options)}, back')
         if found.get("most", value) < value:
