@@ -273,7 +273,7 @@ class Report:
         self.rows.append(Row("glare", "worst UGR", activity.ugr, float(a.ugr[best]) + maintained, float(a.ugr_standard_error[best]), "UGR", True,
                              f"{where}; {self.blame(a.sources[best], places[i], GAZES[k])}"))
         self.notes.append(f"Glare: by the formula of CIE 117 for luminaires as they are seen at {count} places in eight directions, 45 degrees apart "
-                          f"from +x on; the limit is that of {activity.number} {activity.name}.")
+                          f"from +x on, also overhead, where tables of catalogues leave them out; the limit is that of {activity.number} {activity.name}.")
 
     def blame(self, sources, place, gaze):
         """Which luminaire gives most of the glare."""

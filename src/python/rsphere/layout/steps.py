@@ -24,7 +24,7 @@ from .wanted import Light, answers, light_of, receiver_of, rows_of
 
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
-SHARES = (0.6, 0.2, 0.2)  # of the time for searches: the first, and those with what the first has shown
+SHARES = (0.6, 0.5, 1.0)  # of the time that is left, for the first search and for those with what the first has shown
 OTHERS_SHARE = 0.1  # of it, for layouts of equal watts
 POLISH_SHARE, POLISH_GAP = 0.3, 1e-4  # of it for each round of polishing, whose search is a small one
 POLISH_DIMMED = 0.01  # what watts of levels cost there, in watts of luminaires: dimmed ones are to take less, too
@@ -213,7 +213,8 @@ class Steps:
         factors = [{} for _ in self.design.all_scenes()]
         best = None
         for share in SHARES:
-            layout = self.timed("search", lambda: self.searched(factors, share * self.given.seconds))  # noqa: B023
+            left = max(self.given.seconds - self.seconds.get("search", 0.0), 0.0)
+            layout = self.timed("search", lambda: self.searched(factors, share * left))  # noqa: B023
             if best and layout.misses:
                 break
             self.layout = layout
