@@ -102,6 +102,9 @@ class Reports(InAFolder):
         flat = desk.surface.outlines[0][0][:, :2]
         away = distance(flat, points[:, :2])
         self.assertTrue(((away > 0) & (away <= .5)).all())
+        for width, least, most in ((0, 0, 0), (1e-9, 0, 10), (0.02, 20, 1000)):
+            desk.around = width
+            self.assertTrue(least <= len(report.surrounding(desk, np.array([0, 0, 1.0]))) <= most, width)
         around = report.surrounding(board, board.surface.normals[0])
         self.assertTrue(np.allclose(around[:, 1], 4.984))
         self.assertTrue((around[:, 0].min() < 2.8) and (around[:, 2].max() > 2.2))

@@ -20,6 +20,7 @@ HEAD = 2.0  # m above the floor: nobody stands under what is lower
 BEHIND = 0.1  # m: the surroundings of a board end with its wall
 IN_FRONT = 0.5  # m: a wall behind furniture is not one that is seen
 NOISE = 2.0  # standard errors: values nearer to their limit are neither met nor missed
+MOST_AROUND = 200  # points along each side of a surrounding area
 DARK = 1e-3  # of the mean: points below lie inside of furniture
 GAZES = np.array([[np.cos(a), np.sin(a), 0] for a in np.pi / 4 * np.arange(8)])
 WORST = 4  # places and gazes whose glare is computed with FINE directions, of those that COARSE directions find
@@ -189,7 +190,9 @@ class Report:
         surface, along = task.surface, np.stack(frame_of(normal))
         flat = [corners @ along.T for corners, _ in surface.outlines]
         low, high = np.concatenate(flat).min(axis=0) - task.around, np.concatenate(flat).max(axis=0) + task.around
-        counts = np.maximum(np.ceil((high - low) / max(task.around / 2, 1e-9 * self.units)), 1).astype(int)  # two rows of points
+        if not task.around > 0:
+            return np.zeros((0, 3))
+        counts = np.ceil((high - low) / np.maximum(task.around / 2, (high - low) / MOST_AROUND)).astype(int)  # two rows of points
         u, v = (low[i] + (np.arange(counts[i]) + 0.5) * (high[i] - low[i]) / counts[i] for i in (0, 1))
         points = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
         away = self.away(surface, points, lambda corners: corners @ along.T)
