@@ -98,6 +98,13 @@ class Layouts(unittest.TestCase):
         planned, found = self.values(run)["illuminance"]
         self.assertAlmostEqual(planned / found, 1, delta=0.012)
 
+    def test_daylight_where_points_are_left_out(self):
+        """It was computed at all points, and did not fit the light of luminaires."""
+        lines = ["grid panel ceiling spacing 4 5", "scene day", f"daylight {os.path.join(CASES, 'sky.rad')}", "illuminance floor 20 uniformity .1"]
+        run, _, _ = self.run_on(lines, box("white", "chest", (1, 1, 0), (3, 3, 0.5)), "-c", "1", "-d", "64", "-b", "0")
+        self.assertIn("points are left out", run.stdout)
+        self.assertRegex(run.stdout, r"(?m)^day +illuminance +floor +20 lx .* yes$")
+
     def test_luminaires_aimed_aside(self):
         """Under the ceiling, half of them was above it, and planned was a fifth above found."""
         lines = [f"luminaire spot {os.path.join(CASES, 'downlight.ies')}", "grid spot ceiling spacing 4 5 aim 1 0 -1", "illuminance floor 8"]

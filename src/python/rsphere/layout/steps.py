@@ -73,7 +73,7 @@ class Steps:
         with tempfile.TemporaryDirectory() as folder:
             d = self.design
             self.transfer = Transfer(self.rsphere, self.given.room, d, folder, self.given.bounces)
-            self.daylight, self.polished = [self.daylight_in(s) for s in d.all_scenes()], ""
+            self.polished = ""
             if self.given.judge:
                 self.take_layout(folder)
             else:
@@ -81,6 +81,7 @@ class Steps:
                 self.matrix = self.timed("matrix", lambda: self.transfer.matrix(d.candidates, self.given.directions))
                 self.light = light_of(self.transfer, d.candidates, self.matrix)
                 self.check_sides()
+                self.daylight = [self.daylight_in(s) for s in d.all_scenes()]
                 print(f"Matrix: {len(self.transfer.receivers)} receivers, {len(d.candidates)} candidates, standard error "
                       f"{self.matrix_error():.1%}, {self.seconds['matrix']:.1f} s")
                 self.find_layout(folder)
@@ -100,6 +101,7 @@ class Steps:
         layout, levels = read_layout(self.given.judge, self.design)
         self.faults = not_allowed(self.design, layout)
         self.timed("light", lambda: self.transfer.prepare(self.design.candidates))  # points that all candidates leave dark take no part
+        self.daylight = [self.daylight_in(s) for s in self.design.all_scenes()]
         self.use(layout)
         self.matrix = None
         self.layout = Layout(np.arange(len(layout)), list(levels), 0.0, [], False, lambda seconds: [])
