@@ -43,9 +43,12 @@ constexpr const char* kUsage =
   -p        print the sensors, as rtrace reads them, and stop
   -a        print all polygons, one a line, and stop: name, modifier, x y z of each corner; behind tabs
   -i FILE   read the illuminances from a file, in the order of -p, instead of running rtrace
-  -q UNIT   of what -i reads, if it is no illuminance: -q % for shares of time
+  -q UNIT   of what -i reads, if it is no illuminance: -q % for shares of time; without -i, -q W/m2 for
+            irradiance by luminaires whose files are radiant
 
 Scene files are scene text or one octree. rtrace is run with)";
+
+constexpr const char* kRadiant = "W/m2";  // the unit of irradiance
 
 // Diffuse light between surfaces, interpolated, for an rtrace without -Sa.
 const std::vector<std::string> kOfOthers{"-ab", "8",   "-aa",  ".1",  "-ad", "1024", "-as", "512", "-ar",
@@ -142,7 +145,8 @@ Settings settingsOf(const std::vector<std::string>& words) {
   }
   if (s.surfaces.empty() && !s.allPolygons) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
-  if (s.unit != "lx" && s.readings.empty()) throw rad::Error("-q is for what -i reads");
+  if (s.unit != "lx" && s.unit != kRadiant && s.readings.empty())
+    throw rad::Error(fmt::format("-q is for what -i reads; without -i, {} is the only other unit", kRadiant));
   rsphere::requireSvgName("-o", s.picture, "the plan");
   return s;
 }
@@ -214,6 +218,8 @@ std::string errorText(const std::vector<V3d>& sensors, const std::vector<double>
 std::string titleOf(const Settings& s) {
   const std::string where =
       s.height == 0 ? "on" : fmt::format("{:.4g} {}", std::abs(s.height), s.height > 0 ? "above" : "behind");
+  if (s.unit == kRadiant && s.readings.empty())
+    return fmt::format("Irradiance {} {} ({})", where, fmt::join(s.surfaces, ", "), s.unit);
   if (s.unit != "lx") return fmt::format("{} {} ({})", where, fmt::join(s.surfaces, ", "), s.unit);
   return fmt::format("{} {} {} (lx)", s.maintenance == 1 ? "Illuminance" : "Maintained illuminance", where,
                      fmt::join(s.surfaces, ", "));
@@ -247,8 +253,9 @@ void run(const Settings& s) {
     warn(fmt::format("the front of \"{}\" faces down, and so do the sensors; -r measures its back",
                      s.surfaces[0]));
 
-  auto [values, errors] = s.readings.empty() ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files)
-                                             : Illuminances{readIlluminances(s.readings, sensors.size()), {}};
+  auto [values, errors] =
+      s.readings.empty() ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files, s.unit == kRadiant)
+                         : Illuminances{readIlluminances(s.readings, sensors.size()), {}};
   const std::string largestError = errorText(sensors, values, errors);
   for (double& value : values) value *= s.maintenance;
   std::vector<bool> lit;

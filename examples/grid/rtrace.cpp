@@ -41,8 +41,8 @@ bool isOtherRtrace() {
 }
 
 Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::V3d& normal,
-                               const std::vector<std::string>& options,
-                               const std::vector<std::string>& files) {
+                               const std::vector<std::string>& options, const std::vector<std::string>& files,
+                               bool radiant) {
   const File sensors(std::tmpfile(), std::fclose);
   if (!sensors) throw systemError("cannot make a temporary file");
   for (const Imath::V3d& p : points)
@@ -55,7 +55,8 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
   std::vector<std::string> words{isOtherRtrace() ? file : "rtrace"};
   words.insert(words.end(), options.begin(), options.end());
   words.insert(words.end(), {"-h-", "-I+", "-fa"});
-  if (isOtherRtrace())
+  const bool inColors = radiant || isOtherRtrace();  // only luminance and colors have standard errors
+  if (inColors)
     words.insert(words.end(), {"-ov"});
   else
     words.insert(words.end(), {"-pY", "-ove"});
@@ -81,9 +82,9 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
   {
     const File answers(fdopen(pipe[0], "r"), std::fclose);
     rsphere::Color c;
-    if (isOtherRtrace())
+    if (inColors)
       while (answers && std::fscanf(answers.get(), "%lf %lf %lf", &c.x, &c.y, &c.z) == 3)
-        found.values.push_back(kLumensPerWatt * rsphere::brightness(c));
+        found.values.push_back(radiant ? (c.x + c.y + c.z) / 3 : kLumensPerWatt * rsphere::brightness(c));
     else
       while (answers && std::fscanf(answers.get(), "%lf %lf", &c.x, &c.y) == 2) {
         found.values.push_back(c.x);
