@@ -67,6 +67,11 @@ FAULTS = (
     (2, "dimming maybe", 3, 'dimming must be yes or no, not "maybe"'),
     (2, "scene day\nscene day", 4, 'two scenes "day"'),
     (2, "scene day", 3, "the scene day has no goals"),
+    (2, "\n".join(f"scene s{i}\nilluminance desk1 50" for i in range(101)), 203, "more than 100 scenes"),
+    (0, "luminaire panel goals.txt", 1, r"goals\.txt: is neither an IES file"),
+    (0, "luminaire panel \x1b[31m.ies", 1, r"\?\[31m\.ies: cannot be read"),
+    (1, "\n".join(f"place panel {1 + 1e-4 * i:g} 1 2" for i in range(20001)), None, "20001 candidates are more than 20000"),
+    (2, f"illuminance {'*a' * 1000}b 5", 3, "no polygon or modifier"),
     (0, "luminaire panel panel.ies watts 1e9", 1, "the watts must be from"),
     (0, "luminaire panel panel.ies factor 0", 1, "factor on the light must be from"),
     (0, "luminaire panel panel.ies\nluminaire panel panel.ies", 2, 'two luminaires "panel"'),
@@ -166,6 +171,20 @@ class Goals(unittest.TestCase):
                 self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
                 self.assertRegex(run.stderr, re.escape("layout: fatal - " + (f"{file}:{line}: " if line else "")) + ".*" + words)
+
+    def test_faults_of_the_room(self):
+        """They had the name of another program in front."""
+        goals = os.path.join(LAYOUT, "cases/office.txt")
+        for text, words in (("void plastic", r"room\.rad:1: text ends"), ("!false\n", "false"), (None, r"room\.rad: cannot open scene file"),
+                            ("!cat ROOM\n", "room.rad"), ("", 'no polygon or modifier "ceiling"; it has no polygons'), ("\0\1", r"room\.rad")):
+            with self.subTest(text=text), tempfile.TemporaryDirectory() as folder:
+                room = os.path.join(folder, "room.rad")
+                if text is not None:
+                    with open(room, "w", encoding="ascii") as stream:
+                        stream.write(text.replace("ROOM", room))
+                run = run_here([built("rsphere-layout"), "-o", folder, goals, room])
+                self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
+                self.assertRegex(run.stderr, r"\Arsphere-layout: fatal - (?!rsphere-plan)[^\n]*" + words + r"[^\n]*\n\Z")
 
     def test_glare(self):
         """UGR as planned is that of rsphere -Su, for lamps ahead, beside, and half of which is behind the eye."""

@@ -19,6 +19,11 @@ def fault(file, line, text):
     return made
 
 
+def fault_of(stderr):
+    """The fault that a program of rsphere ended with, without the program's name."""
+    return Fault(stderr.strip().split("\n")[-1].split(": fatal - ", 1)[-1])
+
+
 # float() also reads nan, infinity, 1_000 and digits of other scripts.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 LARGEST_FILE = 16 << 20  # bytes; photometric files have some 100 kB

@@ -6,7 +6,7 @@ from html import escape
 import numpy as np
 
 from ..command import program
-from ..fault import Fault, fault, lines_of, number
+from ..fault import fault, fault_of, lines_of, number
 from ..layout.room import polygons_named
 
 WORDS = ("x", "y", "z", "the direction along x", "the direction along y", "the direction along z")
@@ -65,7 +65,7 @@ def sensors_on(given, polygons):
         area = sum(np.linalg.norm(p.vector()) for p in polygons_named(polygons, name, ("--on " + name, None)))
         run = subprocess.run([*plan_command(given, name), "-p", *given.scene], capture_output=True, text=True, check=False)
         if run.returncode:
-            raise Fault(run.stderr.strip().split("\n")[-1].removeprefix("plan: fatal - "))
+            raise fault_of(run.stderr)
         found = [[float(word) for word in line.split()] for line in run.stdout.splitlines()]
         planes.append((name, slice(len(rows), len(rows) + len(found))))
         rows += found
@@ -82,7 +82,7 @@ def draw(given, name, values, unit, title, path):
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     os.remove(path + ".txt")
     if run.returncode:
-        raise Fault(run.stderr.strip().split("\n")[-1].removeprefix("plan: fatal - "))
+        raise fault_of(run.stderr)
     with open(path, encoding="utf-8", errors="replace") as stream:
         return stream.read()
 

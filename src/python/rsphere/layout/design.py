@@ -11,6 +11,7 @@ from ..photometry.luminaire_file import read_luminaire
 from .room import cells_of, names_matching, polygons_named, surface_of
 
 MOST_CANDIDATES = 20000
+MOST_SCENES = 100
 FAR = 20  # times the size of the scene: what is farther away is in other units
 SCENE_SIZES = 0.3, 1e5  # m: others are those of a scene whose units are wrong
 
@@ -380,6 +381,8 @@ class Reader(Statements):
         name = word(w.text("a name"))
         if any(name == s.name for s in self.design.scenes):
             raise w.fault(f'there are two scenes "{name}"')
+        if len(self.design.scenes) == MOST_SCENES:
+            raise w.fault(f"there are more than {MOST_SCENES} scenes")
         self.design.scenes.append(Scene(name, place=w.place))
 
     def read_daylight(self, w):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..command import program
-from ..fault import Fault, fault
+from ..fault import Fault, fault, fault_of
 
 LIFT = 0.004  # m: surfaces of goals lie this far above what they cover, and above sheets of paper on it
 FACE = re.compile(r"\.(1540|4620|6457|3267|5137|2310)\Z")  # behind the name of a box
@@ -106,7 +106,7 @@ def read_polygons(files):
     except OSError:
         raise Fault("the program plan is missing; cmake --build build --target plan makes it, PROGRAMS names its folder") from None
     if run.returncode:
-        raise Fault(run.stderr.strip().split("\n")[-1].removeprefix("plan: fatal - "))
+        raise fault_of(run.stderr)
     polygons = []
     for line in run.stdout.split("\n")[:-1]:
         name, modifier, numbers = BYTE.sub(lambda found: chr(0xDC00 + int(found[1], 16)), line).split("\t")
@@ -118,7 +118,7 @@ def plan_of(path, words, raypath_of):
     """The drawing that the program plan writes to a path."""
     run = subprocess.run([program("plan"), "-o", path, *words], capture_output=True, text=True, check=False, env=dict(os.environ, RAYPATH=raypath_of))
     if run.returncode:
-        raise Fault(run.stderr.strip().split("\n")[-1])
+        raise fault_of(run.stderr)
     with open(path, encoding="utf-8", errors="replace") as stream:
         return stream.read()
 
