@@ -78,6 +78,8 @@ class Places(InAFolder):
             ("panel 1 1 1 0 0 -1 0 1 1", 1, 'no luminaire "panel" in the goals; there are spot'), ("# none\nspot 1 1", 2, "z of the place"), ("", None, "there is no luminaire"),
             ("spot 1 1 1 0 0 0 0 1 1", 1, "aim must not be 0 0 0"), ("spot 1 1 1 0 0 -1 0 1 2", 1, "level in night must be from 0 to 1"),
             ("spot 1 1 1 0 0 -1 0 1", 1, "needs the level in night"), ("spot 1 1 1 0 0 -1 0 1 1 1", 1, '"1" is not expected'), ("spot 1 nan 1 0 0 -1 0 1 1", 1, "must be a number"),
+            ("\n".join(["spot 1 1 1 0 0 -1 0 1 1"] * 3000), 2001, "more than 2000 luminaires"), ("spot 1e300 1 1 0 0 -1 0 1 1", 1, "x of the place must be from"), ("\0", 1, "not a text file"),
+            ("spot 1 1 1 0 0 -1 0 1 -.1", 1, "level in night must be from 0 to 1"), ("SPOT 1 1 1 0 0 -1 0 1 1", 1, 'no luminaire "SPOT"'), ("spot 1 1 1 0 0 -1 400 1 1", 1, "turn must be from -360"),
         ):
             with self.subTest(text=text):
                 with self.assertRaises(Fault) as caught:

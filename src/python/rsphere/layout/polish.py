@@ -12,6 +12,7 @@ LEVEL = 1e-3  # m: candidates at one height are neighbours of each other
 SAME = 1e-3  # m, and of aims: a luminaire is where a candidate is
 TILTED = 0.9999  # of the cosine to straight down: luminaires that are aimed lower have no other aims
 MOST_TILT = sum(TILTS) + 0.1  # degrees: how far aims may be from those of a candidate
+MOST_LUMINAIRES = 2000  # of a layout that is judged: each is compared with all others
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 
 
@@ -98,6 +99,8 @@ def read_layout(file, design):
         scenes = design.all_scenes()
         levels.append([taken.number(f"the level{' in ' + s.name if s.name else ''}", 0, 1) for s in scenes])
         taken.end()
+        if len(layout) > MOST_LUMINAIRES:
+            raise taken.fault(f"there are more than {MOST_LUMINAIRES} luminaires")
         if not design.dims() and set(levels[-1]) != {1.0}:
             raise taken.fault("the luminaires of these goals are not dimmed: the level is 1")
     if not layout:
