@@ -172,6 +172,16 @@ class Goals(unittest.TestCase):
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
                 self.assertRegex(run.stderr, re.escape("layout: fatal - " + (f"{file}:{line}: " if line else "")) + ".*" + words)
 
+    def test_faults_of_options(self):
+        for options, words in ((("-p", "flor"), 'polygon or modifier "flor"; it has floor'), (("-b", "nan"), "invalid int value"), (("-d", "1e9"), "invalid int value"),
+                               (("-s", "0"), "--seconds must be from"), (("-g", "2"), "--gap must be from"), (("-c", "-5"), "--check must be from"),
+                               (("--polish", "--judge", "x"), "exclude each other"), (("--judge",), "expected one argument"), (("--judge", "none"), "none: cannot be read"),
+                               (("--accuracy", "nan"), "--accuracy must be from"), (("-o", "/proc/none"), "/proc/none: cannot be made")):
+            with self.subTest(options=options):
+                run, _ = self.run_on(GOOD, options, here=True)
+                self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
+                self.assertRegex(run.stderr, r"\Arsphere-layout: fatal - [^\n]*" + words + r"[^\n]*\n\Z")
+
     def test_faults_of_the_room(self):
         """They had the name of another program in front."""
         goals = os.path.join(LAYOUT, "cases/office.txt")

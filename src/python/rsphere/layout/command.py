@@ -51,6 +51,8 @@ def arguments():
     for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536), ("accuracy", 1e-4, 0.5)):
         if not least <= getattr(given, name) <= most:
             raise Fault(f"--{name} must be from {least:g} to {most:g}")
+    if sum(map(bool, (given.polish, given.judge, given.report))) > 1:
+        raise Fault("--polish, --judge and --report exclude each other")
     return given
 
 

@@ -16,7 +16,7 @@ from .forward import Forward, daylight_of
 from .polish import SHARES as ROUNDS
 from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
-from .room import plan_of, read_polygons
+from .room import plan_of, polygons_named, read_polygons
 from .search import Layout, most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
@@ -57,6 +57,8 @@ class Steps:
         self.rsphere, self.given, self.seconds = rsphere, given, {}
         self.polygons = read_polygons(given.room)
         self.design = read_design(given.goals, self.polygons)
+        if given.plan:
+            polygons_named(self.polygons, given.plan, ("--plan", None))  # its fault is not to come behind minutes of work
         self.title = given.title or f"Layout for {os.path.basename(given.goals)}"
         self.rows = []  # of the table: (scene, goal, planned, found)
         self.miss_texts = {}  # by scene and goal
