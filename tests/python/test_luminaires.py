@@ -96,6 +96,18 @@ class Ies(Files):
             (self.changed("1000 1.5", "1000 1e-9").replace(".9 1 70", "1e-3 1 70"), 11, "largest intensity is .*e-1. cd"),
             (self.changed("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n1"), None, ""),
             ("TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 5\n0 90\n0\n0 0\n", 6, "all candela values are 0"),
+            (BOX.encode("utf-16"), 1, "not a text file"),
+            (b"\x89PNG\r\n\x1a\n" + bytes(range(256)), 3, "not a text file"),
+            ("x" * 1_000_000, 1, "no line TILT="),
+            ("[" * 1_000_000 + "\nTILT=NONE\n", 3, "ends before the number of lamps"),
+            ("[OTHER] " + "m W " * 100_000 + "\nTILT=NONE\n", 3, "ends before the number of lamps"),
+            (self.changed("TILT=NONE", "TILT=" + "x" * 100_000), 2, "cannot be read: File name too long"),
+            (self.changed("TILT=NONE", "TILT=\x1b[31mred"), 2, r"TILT=\?\[31mred"),
+            (self.changed("1000 1.5", "1e" + "9" * 100_000 + " 1.5"), 3, "must be from -1"),
+            (self.changed("1000 1.5", "1" + "0" * 100_000 + " 1.5"), 3, "must be from -1"),
+            (self.changed("1000 1.5", "0x10 1.5"), 3, "must be a number"),
+            (self.changed("1000 1.5", "1_000 1.5"), 3, "must be a number"),
+            (b" " * (17 << 20), None, "larger than 16 MB"),
         ):
             with self.subTest(words=words, text=text[:200]):
                 if line is None:
@@ -151,6 +163,14 @@ class Eulumdat(Files):
             ({"l48": "0"}, 49, "must ascend"),
             ({"l53": "x"}, 53, 'must be a number, not "x"'),
             ({"l55": "5\r\n9"}, 56, "follows the last intensity"),
+            ({"l3": "4.5"}, 3, "symmetry"),
+            ({"l4": "1e300"}, 4, "C planes must be from"),
+            ({"l24": "inf"}, 24, "must be a number"),
+            ({"l24": "0x10"}, 24, "must be a number"),
+            ({"l26": "99999"}, 26, "sets of lamps"),
+            ({"l27": "-1e9"}, 27, "number of lamps"),
+            ({"l9": "\0"}, 9, "not a text file"),
+            ({"l53": "1" + "0" * 100_000}, 53, "must be from 0"),
         ):
             with self.subTest(changes=changes):
                 path = self.file(eulumdat(**changes), "lamp.ldt")
