@@ -17,7 +17,7 @@ from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdi
 from rsphere.annual.weather import Weather
 from rsphere.fault import Fault
 from rsphere.layout.room import read_polygons
-from run_here import InAFolder, built
+from run_here import InAFolder, built, run_here
 
 PLACE = [47.0, 15.0, 15.0]
 BLACK = "void plastic black 0 0 5 0 0 0 0 0\n"
@@ -65,6 +65,32 @@ class Rules(unittest.TestCase):
             self.assertEqual(verdict.met(), met)
         weights = np.array([0.75, 0.25])
         self.assertEqual(found(year_of([[300], [0]], weights=weights), "sDA 300", "75%").value, 0.75, "by their areas")
+
+    LIMITS = (  # each rule by hand: its name, what it asks for, lx in half of the hours, and the share of the area
+        ("sDA 300", "55%", 300, 0.55), ("sDA 300", "75%", 300, 0.75), ("option 1, sDA 300", "40%", 300, 0.4), ("option 1, sDA 300", "55%", 300, 0.55),
+        ("option 1, sDA 300", "75%", 300, 0.75), ("L01, sDA 150", "30%", 150, 0.3), ("L06, sDA 300", "55%", 300, 0.55), ("target, minimum: 300", "50%", 300, 0.5),
+        ("target, medium: 500", "50%", 500, 0.5), ("target, high: 750", "50%", 750, 0.5), ("minimum target, minimum: 100", "95%", 100, 0.95),
+        ("minimum target, medium: 300", "95%", 300, 0.95), ("minimum target, high: 500", "95%", 500, 0.95), ("L01: 200", "30%", 200, 0.3), ("L06: 300", "50%", 300, 0.5))
+
+    def test_every_rule_at_and_beside_its_limits(self):
+        """Of 20 sensors the least number that is enough, or one less; with half of 10 hours at the limit, with 4, and below the limit."""
+        rules = set()
+        for rule, asked, limit, area in self.LIMITS:
+            enough = round(20 * area)
+            for good, hours, lux, met in ((enough, 5, limit, True), (enough - 1, 5, limit, False), (20, 4, limit, False), (20, 10, limit - 0.1, False), (20, 5, 9999, True)):
+                table = np.zeros((20, 10))
+                table[:good, :hours] = lux
+                verdict = found(year_of(table, all_hours=20), rule, asked)
+                rules.add((verdict.rule, verdict.asked))
+                self.assertEqual((verdict.met(), round(verdict.value, 9)), (met, good / 20 if hours > 4 and lux >= limit else 0), (rule, asked, good, hours, lux))
+        days = np.array([(month, 21, hour) for month in (3, 9) for hour in (8.5, 9.5, 14.5, 15.5)])
+        for asked, area in (("55%", 0.55), ("75%", 0.75), ("90%", 0.9)):
+            for good, lux, met in ((round(20 * area), 300, True), (round(20 * area) - 1, 300, False), (20, 3000, True), (20, 299.9, False), (20, 3000.1, False)):
+                verdict = found(year_of([[lux] * 8] * good + [[0] * 8] * (20 - good), days=days), "option 2", asked)
+                rules.add((verdict.rule, verdict.asked))
+                self.assertEqual(verdict.met(), met, (asked, good, lux))
+        others = {v.rule for v in verdicts_of(year_of([[300] * 8], days=days)) if (v.rule, v.asked) not in rules}
+        self.assertEqual(others, {"ASE 1000 lx / 250 h", "hours with a mean of 300 lx", "hours with 90 lx at the worst point"}, "tested below")
 
     def test_hours_of_occupation(self):
         """From 8 to 18 h: neither the hour before 8 nor that after 18; dark hours count."""
@@ -340,16 +366,44 @@ class Closed(InAFolder):
         with self.assertRaisesRegex(Exception, 'blinds.rad:1: text ends within plastic "x"'):
             self.light(self.BOX, sensors, list(clear_days([(3, 21)])), [group])
 
-    def test_shades_that_are_not_there(self):
-        self.file("# nothing\n", "empty.rad")
-        for words, said in ((["--shades", "pain"], 'no polygon with the modifier "pain"; it has black'), (["--on", "flor"], 'no polygon or modifier "flor"'),
-                            (["--shades", "black=2"], "what is behind = must be from 0 to 0.5"), (["--sensors", "none"], "none: cannot be read"),
-                            (["--shades", "black=blinds.rad"], "blinds.rad: cannot be read"), (["--shades", "black=empty.rad"], "empty.rad: has nothing that could be lowered"),
-                            (["--shades", "black", "--shades", "sill"], "--shades sill: has windows that --shades black has already")):
-            with self.command(*words, stderr=subprocess.PIPE) as run:
-                out, err = run.communicate()
-            self.assertEqual((run.returncode, out, err.count("\n")), (1, "", 1), err)
-            self.assertIn(said, err)
+    def test_shades_and_sensors_that_are_not_there(self):
+        """One line that says what is wrong; what may be meant is a warning."""
+        pane = "void glass pane 0 0 3 .9 .9 .9\npane polygon glazing 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n"
+        for name, text in (("empty.rad", "# nothing\n"), ("material.rad", BLACK), ("undefined.rad", "foo polygon b 0 0 9 0 0 0 1 0 0 1 1 0\n"), ("binary.rad", b"a\0"),
+                           ("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 1 360\n"), ("ball.rad", pane + "pane sphere ball 0 0 4 2 0 1.5 .2\n"), ("pane.rad", pane),
+                           ("double.rad", pane + "pane polygon outer 0 0 12 1 -.02 1 1 -.02 2 3 -.02 2 3 -.02 1\n"), ("w7.txt", "1 2 3 4 5 6 7\n"), ("nan.txt", "nan 0 0 0 0 1\n"),
+                           ("csv.txt", "1,1,1,0,0,1\n"), ("head.txt", "x y z dx dy dz\n"), ("none.txt", "\n"), ("wide.txt", "1 1 1 0 0 1\n".encode("utf-16")), ("points.txt", "1 2\n")):
+            self.file(text, name)
+        with self.command("--unknown", stderr=subprocess.PIPE) as run:
+            self.assertIn("unrecognized arguments: --unknown", run.communicate()[1])  # this has written w.wea and room.rad
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        shades = lambda *words: [part for word in words for part in ("--shades", word)]  # noqa: E731
+        refused = (
+            (shades("pain"), 'no polygon with the modifier "pain"; it has black'), (shades("="), 'no polygon with the modifier ""'), (shades("black=2"), "what is behind = must be from 0 to 0.5"),
+            (shades("black=-1"), "must be from 0 to 0.5"), (shades("black=0,5"), 'must be a number, not "0,5"; decimals need a point'), (shades("black=gone.rad"), "gone.rad: cannot be read"),
+            (shades("black=."), ".: cannot be read: Is a directory"), (shades("black=empty.rad"), "empty.rad: has nothing that could be lowered"), (shades("black=binary.rad"), "binary.rad:1: is not a text"),
+            (shades("black=undefined.rad"), 'undefined.rad:1: undefined modifier "foo"'), (shades("black=sky.rad"), "has a sky, or something above"), (shades("black", "sill"), "--shades sill: has windows that"),
+            (shades("black", "black"), "--shades black: has windows that"), ([*shades("pane"), "ball.rad"], 'ball.rad:3: sphere "ball" has the modifier of --shades pane, but only polygons'),
+            (["--on", "flor"], 'no polygon or modifier "flor"'), (["room.rad"], "room.rad: is named twice"), (["gone.rad"], "gone.rad: cannot open scene file"), (["w.wea"], 'w.wea:1: undefined modifier "place"'),
+            (["--sensors", "none"], "none: cannot be read"), (["--sensors", "w7.txt"], "w7.txt:1: a sensor is a place and"), (["--sensors", "nan.txt"], 'nan.txt:1: x must be a number, not "nan"'),
+            (["--sensors", "csv.txt"], "csv.txt:1: a sensor is a place"), (["--sensors", "head.txt"], 'head.txt:1: x must be a number, not "x"'), (["--sensors", "none.txt"], "none.txt: has no sensors"),
+            (["--sensors", "wide.txt"], "wide.txt:1: is not a text file"), (["--sensors", "."], ".: cannot be read"), (["--margin", "3"], "no point of the grid is inside the polygon"), (["-b", "0"], "--bounces must be from 1"),
+            (["--height", "nan"], "--height must be from"), (["--accuracy", "0"], "--accuracy must be from"), (["-e", "1"], "--estimates must be from 2"), (["--sunlight", "points.txt"], "points.txt:1: a point in a window"),
+            (["-o", "w.wea"], "w.wea: cannot be made"))
+        start = [built("rsphere-annual"), "--weather", "w.wea", "-d", "16", "-e", "2", "--spacing", "4", "room.rad"]
+        for words, said in refused:
+            with self.subTest(words):
+                run = run_here([*start, *words])
+                self.assertEqual((run.returncode, run.stdout, run.stderr.count("fatal")), (1, "", 1), run.stderr)
+                self.assertIn(said, run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1 + run.stderr.count("warning"))
+        for words, said in (([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
+                            ([*shades("pane"), "double.rad"], "--shades pane: glazing and outer are panes of one window, and both get blinds")):
+            with self.subTest(words):
+                run = run_here([*start, *words])
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(run.stderr.count(said), 1, run.stderr)
 
 
 class Files(InAFolder):

@@ -34,7 +34,8 @@ class Options(argparse.ArgumentParser):
             if not action.option_strings:
                 continue
             names = ", ".join(action.option_strings) + (f" {action.metavar}" if action.metavar else "")
-            default = f" [{action.default}]" if action.nargs != 0 and action.default not in (None, "") else ""
+            value = " ".join(action.default) if isinstance(action.default, list) else action.default
+            default = f" [{value}]" if action.nargs != 0 and value not in (None, "") else ""
             lines.append(f"  {names:<24} {action.help}{default}")
         return "\n".join([*lines, "", self.text]).rstrip() + "\n"
 
@@ -58,7 +59,12 @@ def run_program(main):
 
     name = os.path.basename(sys.argv[0])
 
+    shown = set()
+
     def show_warning(message, *_):
+        if str(message) in shown:
+            return  # several scenes are made of the same files
+        shown.add(str(message))
         PROGRESS.clear()
         print(f"{name}: warning - {message}", file=sys.stderr)
 

@@ -19,7 +19,7 @@ from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients,
 from .matrix import read_coefficients
 from .report import Report
 from .sensors import read_sensors, scene_files, sensors_on
-from .shades import groups_of
+from .shades import check_shapes, groups_of
 from .sky import SOLAR_CONSTANT
 from .sun import sun_position
 from .verdicts import FROM, UNTIL, verdicts_of
@@ -31,7 +31,7 @@ MOST_ESTIMATES = 512
 QUARTER_HOUR = 3.75  # degrees of longitude
 HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
 
-TEXT = """\\
+TEXT = """\
 Coefficients may also follow the weather alone: rsphere-annual town.epw sky.mtx.
 The scene has no sky; the weather (.epw or .wea) brings it. Verdicts are printed with their sources. They, what each sensor has,
 plans and a page for the browser (page.html) go into the folder of -o. rsphere-annual(1) describes the method."""
@@ -42,10 +42,10 @@ def arguments():
     parser.add_argument("scene", nargs="*")
     parser.add_argument("--weather", metavar="FILE", help="the hours of a year: .epw or .wea")
     parser.add_argument("--sensors", metavar="FILE", help="x y z dx dy dz, one a line; otherwise a grid")
-    parser.add_argument("--on", action="append", metavar="NAME", help="polygon or modifier with a grid of sensors: floor")
+    parser.add_argument("--on", action="append", metavar="NAME", help="polygon or modifier with a grid of sensors [floor]")
     parser.add_argument("--height", type=float, default=0.85, metavar="H", help="of the grid above it")
     parser.add_argument("--spacing", type=float, default=0.5, metavar="D", help="largest, of the grid")
-    parser.add_argument("--margin", type=float, default=0.0, metavar="M", help="without sensors, along edges")
+    parser.add_argument("--margin", type=float, default=0, metavar="M", help="without sensors, along edges")
     parser.add_argument("--shades", action="append", default=[], metavar="NAME[=X]", help="windows with blinds: modifier; transmittance or file")
     parser.add_argument("--sunlight", metavar="NAME", help="windows whose hours of sun are counted (EN 17037): modifier, or file of points")
     parser.add_argument("--day", default="3-21", metavar="M-D", help="of these hours, from 2-1 to 3-21")
@@ -63,9 +63,9 @@ def arguments():
     parser.add_argument("-n", "--threads", type=int, default=0, metavar="N", help="0: one for each core")
     parser.add_argument("-t", "--title", default="", metavar="TEXT", help="of the page")
     parser.add_argument("-o", "--output", default="annual", metavar="FOLDER", help="for the results")
-    given = parser.parse_args()
-    for name, least, most in (("bounces", 0, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096),
-                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("accuracy", 1e-5, 1), ("sun_altitude", 0, 45), ("view", 0, 100)):
+    given = parser.parse_intermixed_args()  # scene files may be before and behind options
+    for name, least, most in (("bounces", 1, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096),
+                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("height", -1e6, 1e6), ("accuracy", 1e-5, 1), ("sun_altitude", 0, 45), ("view", 0, 100)):
         value = getattr(given, name)
         if value is not None and not least <= value <= most:
             raise Fault(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
@@ -76,6 +76,9 @@ def arguments():
     for name in ("sensors", "sunlight", "eyes", "coefficients"):
         if getattr(given, name) == "":
             raise Fault(f"--{name} has no name")
+    for file in given.scene:
+        if given.scene.count(file) > 1:
+            raise Fault(f"{file}: is named twice; its panes would stand behind each other")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     given.day = outside.day_of(given.day)
@@ -180,8 +183,10 @@ def light_of_scene(given, weather, polygons, notes):
     if given.glare and (np.hypot(eyes[:, 3], eyes[:, 4]) < 1e-6 * np.abs(eyes[:, 5])).any():
         raise fault(given.eyes, None, "has a gaze straight up or down, where glare is not defined")
     groups = groups_of(given.shades, polygons, sensors[:, :3])
+    if groups:
+        check_shapes(groups, given.scene)
     with tempfile.TemporaryDirectory() as folder:
-        check_sky(given.scene, polygons, folder)
+        check_sky([*(file for group in groups for file in group.files), *given.scene], polygons, folder)
         light = Light(given.scene, sensors, weights, weather, groups, folder,
                       Settings(given.bounces, given.divisions, max(16, given.divisions // 4), threads=given.threads), eyes)
         check_weather(given.weather, weather, light.dark_sun)
@@ -198,6 +203,8 @@ def light_of_scene(given, weather, polygons, notes):
             PROGRESS.clear()
             glare = None
             notes.append("Interrupted: there is no glare.")
+    for name in light.idle:
+        warn("--shades " + name, "lowered, they change the light at no sensor: is this the window, and are its blinds in front of it?")
     dark = int((light.year.open.sum(axis=(0, 2)) == 0).sum())
     if dark:
         warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something")

@@ -97,7 +97,7 @@ def check_sky(files, polygons, folder):
         warnings.simplefilter("ignore")  # there may be no light sources
         own = rsphere.Scene(files).trace(rays, outputs="vL", ambient_bounces=0)
     if not np.allclose(seen.value, np.pi, rtol=0.1) or (own.value.any(axis=1) & (own.first_length > 1e9)).any():
-        raise Fault("the scene has a sky, or something above all of its polygons: leave it out; the sky is that of the weather")
+        raise Fault("the scene has a sky, or something above all of its polygons (or a file of blinds has it): leave it out; the sky is that of the weather")
 
 
 class Pass:
@@ -177,6 +177,7 @@ class Light:
         self.year = Year(rows[lit, :3], None, None, None, self.daylight.diffuse, self.daylight.sun, weights, len(rows),
                          occupied_hours(rows))
         self.sums, self.counts, self.states, self.off = None, np.zeros(ESTIMATES, int), None, []
+        self.idle = []  # names of groups whose blinds change nothing
         self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
         self.open_at_eyes = None  # the same, shades up
 
@@ -224,6 +225,8 @@ class Light:
         base = self.lux_of(self.base, number) if self.base else 0
         parts = np.array([[self.lux_of(p, number) - base for p in states] for states in self.passes]) + self.direct
         base = base + self.direct_of(self.base) if self.base else 0
+        if number == 0:
+            self.idle = [g.name for g, (up, lowered) in zip(self.groups, parts) if np.array_equal(up, lowered)] if self.groups else []
         if self.states is None and len(self.passes[0]) > 1:
             w = self.year.weights
             self.states = states_by_rule(self.direct[:, :, : len(w)], np.einsum("i,gsih->gsh", w, parts[:, :, : len(w)]), w)

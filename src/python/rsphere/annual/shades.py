@@ -1,9 +1,14 @@
 """Shades: groups of windows, each with its blinds up or lowered, and the rule of IES LM-83 by which they are lowered."""
+import os
+import re
+import subprocess
+import warnings
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
+from ..command import program
 from ..fault import NUMBER, Fault, fault, lines_of, number
 from .verdicts import SUNNY
 
@@ -12,6 +17,7 @@ PANE = 0.1  # reflectance of windows that are closed, about that of panes: while
 ALLOWED = 0.02  # of the sensors may have SUNNY lx of direct sun (LM-83)
 MOST_COMBINED = 6  # groups of which all combinations are tried
 GAP, OVERLAP = 1e-4, 1e-3  # of a blind from its pane, and beyond its edges, by the pane's size: what passes beside it is negligible
+BEHIND = 0.25  # by their size: how far windows may be apart that are panes of one opening
 UP, LOWERED = 0, 1
 
 
@@ -47,7 +53,7 @@ def group_of(word, polygons, sensors):
         known = ", ".join(sorted({p.modifier for p in polygons})[:8])
         raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
     lowered, files = "", []
-    if state and not NUMBER.fullmatch(state):
+    if state and not (NUMBER.fullmatch(state) or (state[0] in "+-.0123456789" and not os.path.exists(state))):
         files = [state]
         if not any(line.strip() and not line.lstrip().startswith("#") for line in lines_of(state)):
             raise fault(state, None, "has nothing that could be lowered")
@@ -57,6 +63,32 @@ def group_of(word, polygons, sensors):
         lowered = covers(windows, sensors, f"void trans rsphere_blind 0 0 7 {color} {color} {color} 0 0 {t / color:.9g} 0", "rsphere_blind")
     closed = covers(windows, sensors, f"void plastic rsphere_closed 0 0 5 {PANE} {PANE} {PANE} 0 0", "rsphere_closed")
     return Group(name, windows, lowered, files, closed)
+
+
+def behind_others(windows):
+    """Names of two windows of which one lies behind the other, as the panes of double glazing do, or None."""
+    vectors = np.array([p.vector() for p in windows])
+    size, middle = np.sqrt(np.linalg.norm(vectors, axis=1)), np.array([p.corners.mean(axis=0) for p in windows])
+    for i, normal in enumerate(vectors / size[:, None] ** 2):
+        parallel = np.abs(vectors[i + 1 :] @ normal) > 0.99 * size[i + 1 :] ** 2
+        near = np.linalg.norm(middle[i + 1 :] - middle[i], axis=1) < BEHIND * np.minimum(size[i], size[i + 1 :])
+        for j in np.flatnonzero(parallel & near):
+            return windows[i].name, windows[i + 1 + j].name
+    return None
+
+
+def check_shapes(groups, files):
+    """Raises Fault if a pane of a group is a sphere or the like, and warns of panes behind others."""
+    run = subprocess.run([program("rsphere"), "-h", "-w-", "-Sl", *files], capture_output=True, check=False, stdin=subprocess.DEVNULL,
+                         encoding="utf-8", errors="replace")
+    for place, shape, name, modifier in re.findall(r'^(.+): (\w+) "(.*?)"\t\w+ "(.*?)"', run.stdout, re.MULTILINE):
+        for group in groups:
+            if modifier == group.name and shape != "polygon":
+                raise Fault(f'{place}: {shape} "{name}" has the modifier of --shades {group.name}, but only polygons can have blinds')
+    for group in groups:
+        found = behind_others(group.windows)
+        if found:
+            warnings.warn(f"--shades {group.name}: {found[0]} and {found[1]} are panes of one window, and both get blinds; name one of them", stacklevel=1)
 
 
 def groups_of(words, polygons, sensors):
