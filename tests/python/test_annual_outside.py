@@ -165,6 +165,10 @@ class Outside(InAFolder):
         self.assertEqual([v.met() for v in view.verdicts(np.full(4, 0.25))], [True] * 3)
         self.assertEqual([v.met() for v in view.verdicts(np.array([0.3, 0.2, 0.2, 0.3]))], [False] * 3)
         self.assertEqual(ALTITUDES, 24)
+        for level, (angle, distance, layers) in enumerate(((14, 6, 1), (28, 20, 2), (54, 50, 3))):  # at and beside the limits of each level
+            for a, d, n, met in ((angle, distance, layers, True), (angle - 0.1, distance, layers, False), (angle, distance - 0.1, layers, False), (99, 99, layers - 1, False)):
+                view.angle, view.distance, view.solid_angles = np.full(4, a), np.full(4, d), np.tile([n > 1, n > 0, n > 2], (4, 1)).astype(float)
+                self.assertEqual(list(view.verdicts(np.full(4, 0.25)))[level].met(), met, (level, a, d, n))
 
     def test_command(self):
         with open(os.path.join(self.folder.name, "w.wea"), "w", encoding="ascii") as stream:
