@@ -134,7 +134,7 @@ class Hours(InAFolder):
                 scene = rsphere.Scene([self.file(self.sky(row) + blinds, "sky.rad"), room])
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    wanted = scene.glare(eyes[:, :3], eyes[:, 3:], directions=1024)
+                    wanted = scene.glare(eyes[:, :3], eyes[:, 3:], directions=1024, ambient_bounces=4)
                 for i in range(len(eyes)):
                     found = dgp(glare.lux[1].mean(axis=0)[i, h], glare.weights[i][1][h])
                     self.assertAlmostEqual(found, wanted.dgp[i], delta=0.01, msg=f"{row} eye {i} {shades}")

@@ -28,6 +28,7 @@ from .weather import read_weather
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
 LATE = 0.05  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
 MOST_ESTIMATES = 512
+SUN_SHARE = 8  # of --divisions for reflected sun, whose rays take longer: least noise for the time in two rooms (least at 9 and 16)
 QUARTER_HOUR = 3.75  # degrees of longitude
 HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
 
@@ -188,7 +189,7 @@ def light_of_scene(given, weather, polygons, notes):
     with tempfile.TemporaryDirectory() as folder:
         check_sky([*(file for group in groups for file in group.files), *given.scene], polygons, folder)
         light = Light(given.scene, sensors, weights, weather, groups, folder,
-                      Settings(given.bounces, given.divisions, max(16, given.divisions // 4), threads=given.threads), eyes)
+                      Settings(given.bounces, given.divisions, max(16, given.divisions // SUN_SHARE), threads=given.threads), eyes)
         check_weather(given.weather, weather, light.dark_sun)
         try:
             estimates(light, given)

@@ -24,7 +24,7 @@ LOWEST = 0.16  # DGP without light
 CLASSES = ((0.45, "minimum"), (0.40, "medium"), (0.35, "high"))  # EN 17037: DGP that may be exceeded in SELDOM of the hours
 SELDOM = 0.05
 ESTIMATES, DIVISIONS = 2, 64  # independent ones of the pictures, and rays of each direction; only what is bright needs to be known
-FEW = 16  # rays by which directions are left out that are never bright
+FEW, SHORT = 16, 2  # rays and bounces by which directions are left out that are never bright: below half of THRESHOLD with all patches at their brightest
 SOURCE = f"EN 17037:2018+A1:2021, protection from glare: DGP in {FROM} to {UNTIL} h with shades, at the worst eye"
 
 
@@ -96,7 +96,7 @@ def weights_of_hours(name, files, eye, weather, groups, folder, settings, states
     rays = np.hstack([np.tile(eye[:3], (len(sources.directions), 1)), sources.directions])
     light = Light(files, rays, np.full(len(rays), 1 / len(rays)), weather, groups, folder, settings)
     brightest = light.daylight.luminance.max(axis=0, initial=0)  # of each patch
-    bound = sum(np.max([p.sky(0, FEW) @ brightest for p in group], axis=0) for group in light.passes) + light.direct.max(axis=(1, 3)).sum(axis=0)
+    bound = sum(np.max([p.sky(0, FEW, SHORT) @ brightest for p in group], axis=0) for group in light.passes) + light.direct.max(axis=(1, 3)).sum(axis=0)
     chosen = np.flatnonzero(bound > THRESHOLD / 2)  # that may be bright in some hour
     light.keep(chosen)
     sources.keep(chosen)

@@ -75,7 +75,7 @@ class Settings:
 
     bounces: int = 8
     divisions: int = 256  # for the sky
-    sun_divisions: int = 64  # for reflected sun; noise of both is about equal then
+    sun_divisions: int = 32  # for reflected sun, whose rays take ten times as long
     seasons: int = 13  # declinations of the sun, and hours between its positions: by these the light of single hours errs by 1% in
     hours: float = 0.5  # a classroom with windows to the south
     threads: int = 0
@@ -133,10 +133,10 @@ class Pass:
         bands = scene.contributions(self.eyes, of=of, bins=bins, cs=BANDS, **options).value
         return np.vstack([rows, by_observers(bands.reshape(len(self.eyes), -1, BANDS))])
 
-    def sky(self, number, divisions=None):
+    def sky(self, number, divisions=None, bounces=None):
         """One estimate of the light of all patches."""
         divisions = divisions or self.settings.divisions
-        return self.contributions(self.by_sky, bins=self.bins, ambient_bounces=self.settings.bounces, ambient_divisions=divisions,
+        return self.contributions(self.by_sky, bins=self.bins, ambient_bounces=bounces or self.settings.bounces, ambient_divisions=divisions,
                                   limit_weight=SKY_WEIGHT / divisions, rotation=number)
 
     def estimate(self, number):
