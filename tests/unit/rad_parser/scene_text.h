@@ -30,6 +30,7 @@ class TestFolder {
   std::string write(const std::string& name, std::string_view text) const {
     const std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
+    std::filesystem::remove(path);  // ext4 writes to the disk when a truncated file is closed
     std::ofstream(path, std::ios::binary) << text;
     return path.string();
   }
