@@ -13,6 +13,9 @@ namespace {
 // one for all bands of a spectrum. Larger blocks have room for all values of their scheme.
 constexpr size_t kOnePart = 3, kUsualRoom = kMostBands;
 constexpr size_t kLargeRoom = 2;
+// Unused blocks of one capacity that a thread keeps. A path needs some hundreds at once. Blocks beyond these
+// come from other threads, whose colors this one destroys: kept, they would never be used.
+constexpr size_t kMostSpares = 4096;
 size_t classOf(size_t room) { return room <= kOnePart ? 0 : room <= kUsualRoom ? 1 : kLargeRoom; }
 
 }  // namespace
@@ -37,6 +40,7 @@ struct Bands::Block {
 // objects, are returned to the heap.
 struct Bands::Spares {
   static thread_local std::array<Block*, kLargeRoom + 1> first;
+  static thread_local std::array<size_t, kLargeRoom + 1> count;
   static thread_local bool closed;
 
   struct Closer {
@@ -50,10 +54,11 @@ struct Bands::Spares {
   static Block* take(const BandScheme& scheme, size_t room) {
     const size_t kind = classOf(room);
     Block*& spare = first[kind];
-    while (spare && spare->room < room) ::operator delete(std::exchange(spare, spare->next));
+    for (; spare && spare->room < room; --count[kind]) ::operator delete(std::exchange(spare, spare->next));
     Block* block = spare;
     if (block) {
       spare = block->next;
+      --count[kind];
     } else {
       static thread_local Closer closer;
       closer.open = true;  // this access constructs the thread's object, so that it is destroyed when the
@@ -67,13 +72,14 @@ struct Bands::Spares {
     return block;
   }
   static void give(Block* block) {
-    if (closed) return ::operator delete(block);
-    Block*& spare = first[classOf(block->room)];
-    block->next = spare;
-    spare = block;
+    const size_t kind = classOf(block->room);
+    if (closed || count[kind] == kMostSpares) return ::operator delete(block);
+    block->next = std::exchange(first[kind], block);
+    ++count[kind];
   }
 };
 thread_local std::array<Bands::Block*, kLargeRoom + 1> Bands::Spares::first{};
+thread_local std::array<size_t, kLargeRoom + 1> Bands::Spares::count{};
 thread_local bool Bands::Spares::closed = false;
 
 Bands::Bands(const BandScheme& scheme)

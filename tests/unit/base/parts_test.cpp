@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/band_scheme.h"
 #include "base/color.h"
@@ -99,6 +102,22 @@ TEST(Parts, CopiesAreIndependentAndFunctionsSeeAllParts) {
   copy = Color(1, 2, 3);
   EXPECT_EQ(copy, Color(1, 2, 3));
   EXPECT_FALSE(sum == Color(sum.rgb()));
+}
+
+// Answers are made by threads of their own and destroyed by that which asked for
+// them, which kept the memory of all: gigabytes after a layout.
+TEST(Parts, OfOtherThreadsReturnTheirMemory) {
+  const auto pass = [](int times) {
+    for (int i = 0; i < times; ++i) {
+      std::vector<Color> colors;
+      std::thread([&] {
+        for (size_t k = 0; k < 20000; ++k) colors.push_back(partOf(k % kMany, V3d(1, 2, 3)));
+      }).join();
+    }
+    return mallinfo2().uordblks;
+  };
+  const size_t before = pass(2);
+  EXPECT_LT(pass(30), before + (4 << 20));  // 32 MB of colors have passed
 }
 
 }  // namespace
