@@ -86,8 +86,8 @@ FAULTS = (
 
 
 class Goals(unittest.TestCase):
-    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8", stderr=subprocess.PIPE, here=False):
-        """furniture: scene text besides the office. here: in this process."""
+    def run_on(self, lines, options=("-c", "0", "-d", "64", "-b", "0"), furniture="", encoding="utf-8", stderr=subprocess.PIPE, here=True):
+        """furniture: scene text besides the office. here: in this process, which has SciPy, and knows no warnings of Python again."""
         with tempfile.TemporaryDirectory() as folder:
             file, more = os.path.join(folder, "goals.txt"), os.path.join(folder, "more.rad")
             for path, text in (file, "\n".join(lines).replace("panel.ies", os.path.join(LAYOUT, "cases/panel.ies"))), (more, furniture):
@@ -100,14 +100,14 @@ class Goals(unittest.TestCase):
             return subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False), file
 
     def test_good(self):
-        run, _ = self.run_on(GOOD)
+        run, _ = self.run_on(GOOD, here=False)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertRegex(run.stdout, r"illuminance  desk1 +50 lx +[0-9]+ lx")
 
     def test_progress_on_a_terminal(self):
         """A matrix and a check of minutes did not say how far they were."""
         mine, its = pty.openpty()
-        run, _ = self.run_on(GOOD, ("-c", "8", "-d", "64", "-b", "0"), stderr=its)
+        run, _ = self.run_on(GOOD, ("-c", "8", "-d", "64", "-b", "0"), stderr=its, here=False)
         self.assertEqual(run.returncode, 0)
         os.close(its)
         shown = os.read(mine, 65536).decode()
@@ -133,7 +133,7 @@ class Goals(unittest.TestCase):
 
     def test_eye_that_sees_nothing(self):
         """It was two warnings of Python with lines of its code."""
-        run, _ = self.run_on([*GOOD, "eye me 5 3 9", "cylindrical me 50"])
+        run, _ = self.run_on([*GOOD, "eye me 5 3 9", "cylindrical me 50"], here=False)
         self.assertEqual(run.returncode, 2, run.stderr)
         for line in run.stderr.splitlines():
             self.assertRegex(line, "^rsphere-layout: warning - no importance reaches")
@@ -167,7 +167,7 @@ class Goals(unittest.TestCase):
     def test_faults(self):
         for index, text, line, words in FAULTS:
             with self.subTest(text=text):
-                run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]], here=True)
+                run, file = self.run_on([*GOOD[:index], text, *GOOD[index + 1 :]])
                 self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
                 self.assertRegex(run.stderr, re.escape("layout: fatal - " + (f"{file}:{line}: " if line else "")) + ".*" + words)
@@ -243,7 +243,7 @@ class Goals(unittest.TestCase):
             (["illuminance floor 300 back"], r"goals\.txt:3: .* where it faces, .*leave out back"),
             (["sensor s 1.9 1.2 .001 0 0 -1", "illuminance s 300"], r"goals\.txt:4: .* faces, 0 0 -1; .*turn it round"),
         ):
-            run, _ = self.run_on([*GOOD[:2], *lines], here=True)
+            run, _ = self.run_on([*GOOD[:2], *lines])
             self.assertEqual(run.returncode, 1, run.stdout)
             self.assertRegex(run.stderr, words)
 
