@@ -2,6 +2,7 @@
 
 PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has the folder of the package rsphere.
 """
+import argparse
 import os
 import re
 import unittest
@@ -9,9 +10,12 @@ import unittest
 import numpy as np
 
 from rsphere.fault import Fault
-from rsphere.layout.design import read_design
+from rsphere.layout.design import Goal, read_design
 from rsphere.layout.polish import SHARES, TILTS, layout_text, neighbours, not_allowed, read_layout, spaces, tilted
 from rsphere.layout.room import read_polygons
+from rsphere.layout.search import Layout
+from rsphere.layout.steps import Steps
+from rsphere.layout.wanted import Answer
 from run_here import InAFolder, built, run_here
 from test_layout_points import CASES, ROOM
 
@@ -87,6 +91,14 @@ class Places(InAFolder):
                 self.assertRegex(str(caught.exception), r"layout\.txt:" + (f"{line}: " if line else " ") + ".*" + re.escape(words))
         with self.assertRaisesRegex(Fault, "are not dimmed"):
             self.layout("spot 1 1 1 0 0 -1 0 .5\n", self.design("grid spot ceiling"))
+
+    def test_what_would_help(self):
+        """A search that was too short said that goals are missed, and nothing else."""
+        steps, goal = Steps.__new__(Steps), Goal("illuminance", "desk", 500, ("goals.txt", 1))
+        steps.layout = Layout(np.array([0]), [np.ones(1)], 0.0, [], False, None)
+        for judge, found, words in (("", 300, "1 of 1 goals are not met.*More seconds for the search"), ("mine.txt", 300, r"not met[^M]*\Z"), ("", 500, r"goals are met[^M]*\Z")):
+            steps.given, steps.rows = argparse.Namespace(judge=judge), [(None, goal, Answer(goal, 510, 1), Answer(goal, found, 1))]
+            self.assertRegex(steps.verdict(), words)
 
     def run_on(self, lines, *options):
         room, goals = self.file(ROOM + DESK, "room.rad"), self.file("\n".join([SPOT, *lines]), "goals.txt")

@@ -310,7 +310,8 @@ class Steps:
         # The program asks for all that is wanted; what is nearer than the check's tolerance counts as met.
         layout.misses = [m for m in layout.misses if not next(a for a in self.planned(m[0]) if a.goal is m[1]).met(TOLERANCE)]
         total = float(self.watts[layout.chosen].sum())
-        gap = f" ({1 - layout.bound / total:.1%} less)" if total - layout.bound > 0.5 else ""
+        longer = "; -s gives the search more time" if total * (1 - self.given.gap) > layout.bound + 0.5 and not self.given.judge else ""
+        gap = f" ({1 - layout.bound / total:.1%} less{longer})" if total - layout.bound > 0.5 else ""
         bound = f"; none takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else ""
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds.get('search', 0):.1f} s)")
         self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge or d.dims()) else []
@@ -421,7 +422,8 @@ class Steps:
                 f"{', '.join(largest)}.")
         missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
         if missed or self.layout.misses:
-            return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}"
+            helps = "" if self.layout.misses or self.given.judge else " More seconds for the search (-s) or more places may meet them."
+            return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}{helps}"
         return f"All {len(self.rows)} goals are met. {text}"
 
     def falsecolor(self, s, scene):
