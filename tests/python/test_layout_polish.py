@@ -111,6 +111,7 @@ class Places(InAFolder):
         less, watts = (float(w) for w in re.search(r"Polish: ([0-9.]+) W instead of ([0-9.]+) W", run.stdout).groups())
         self.assertLess(less, 0.9 * watts, run.stdout)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("none at the candidates takes less than", run.stdout)  # it takes less
         found = re.search(r"(?m)^illuminance +desk +150 lx +[0-9]+ lx +([0-9]+) lx", run.stdout)[1]
         again = self.run_on(lines, "--judge", os.path.join(self.folder.name, "out/layout.txt"))
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
