@@ -13,9 +13,9 @@ from rsphere.fault import Fault
 from rsphere.layout.design import Goal, read_design
 from rsphere.layout.polish import SHARES, TILTS, layout_text, neighbours, not_allowed, read_layout, spaces, tilted
 from rsphere.layout.room import read_polygons
-from rsphere.layout.search import Layout
+from rsphere.layout.search import Layout, search
 from rsphere.layout.steps import Steps
-from rsphere.layout.wanted import Answer
+from rsphere.layout.wanted import Answer, Row
 from run_here import InAFolder, built, run_here
 from test_layout_points import CASES, ROOM
 
@@ -91,6 +91,14 @@ class Places(InAFolder):
                 self.assertRegex(str(caught.exception), r"layout\.txt:" + (f"{line}: " if line else " ") + ".*" + re.escape(words))
         with self.assertRaisesRegex(Fault, "are not dimmed"):
             self.layout("spot 1 1 1 0 0 -1 0 .5\n", self.design("grid spot ceiling"))
+
+    def test_no_others_where_goals_are_missed(self):
+        """Layouts that missed the goals by more were listed as equally good."""
+        design, goal = self.design("place spot 4 2.5 2.8", "place spot 3 2.5 2.8"), Goal("illuminance", "desk", 300, ("goals.txt", 1))
+        for wanted, count in ((300, 0), (90, 1)):
+            rows = [Row(goal, np.array([100.0, 100.0]), -float(wanted), 1, float(wanted))]
+            layout = search(design, design.candidates, np.array([13.0, 13.0]), [rows], 2.0)
+            self.assertEqual((bool(layout.misses), len(layout.others(1.0))), (not count, count))
 
     def test_what_would_help(self):
         """A search that was too short said that goals are missed, and nothing else."""

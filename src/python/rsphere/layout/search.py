@@ -333,7 +333,8 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
     levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
-    return Layout(chosen, levels, bound, misses, proven, lambda more: solver.others(found, more))
+    others = (lambda more: []) if solver.elastic else (lambda more: solver.others(found, more))  # elastic ones miss any goal
+    return Layout(chosen, levels, bound, misses, proven, others)
 
 
 def most_of(design, candidates, row, seconds):

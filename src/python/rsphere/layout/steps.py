@@ -313,7 +313,8 @@ class Steps:
         longer = "; -s gives the search more time" if total * (1 - self.given.gap) > layout.bound + 0.5 and not self.given.judge else ""
         gap = f" ({1 - layout.bound / total:.1%} less{longer})" if total - layout.bound > 0.5 else ""
         here = " at the candidates" if self.polished else ""  # there, others are not proven to take more
-        bound = f"; none{here} takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else ""
+        unknown = "; the least watts are not known: -s gives the search more time" if total > 0 and not (layout.misses or self.given.judge) else ""
+        bound = f"; none{here} takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else unknown
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds.get('search', 0):.1f} s)")
         self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge or d.dims()) else []
         for k, other in enumerate(self.others):
