@@ -433,7 +433,7 @@ constexpr OptionEntry kOptions[] = {
     {{"-Sa", "acc", "stop at this relative standard error; 0: off", Group::sphere, Custom{setAccuracy},
       kFraction},
      {.line = accuracyLine}},
-    {{"-Sw", "letter", "weights: h equal, v Voronoi cells, c cells within silhouettes", Group::sphere,
+    {{"-Sw", "letter", "weights: h equal, v Voronoi cells, c cells cut at silhouettes", Group::sphere,
       Custom{setWeights}},
      {.mode = Mode::points, .line = weightsLine}},
     // The quantities that sphere mode computes.
@@ -470,8 +470,8 @@ constexpr OptionEntry kOptions[] = {
     // Options of rsphere that also apply in ray mode.
     {{"-Ss", "N", "light sources tested at a surface; 0: all", Group::sphere, ray<&RayOptions::chosenSources>,
       Range{0, 1e6}}},
-    {{"-Sh", "N", "first rays for each ray that continues", Group::indirect, ray<&RayOptions::firstRays>,
-      Range{0, 1000}}},
+    {{"-Sh", "N", "rays of the first gather for each that goes on", Group::indirect,
+      ray<&RayOptions::firstRays>, Range{0, 1000}}},
     {{"-Sm", "MB", "memory of the irradiance cache; 0: no limit", Group::sphere,
       ray<&RayOptions::fieldMemory>, Range{0, 1e9}, "MB"}},
     {{"-Sr", "N", "number of the rotation and random numbers", Group::sphere, Custom{setRotation}, kCount},
