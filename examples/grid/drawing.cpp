@@ -82,14 +82,19 @@ class Canvas {
 // From the plane to pixels. The plan has the plane's own directions: right is right, up is up.
 class Scale {
  public:
-  Scale(const Area& area, double left, double top, double widest, double highest) {
+  // context: outlines that are drawn, too.
+  Scale(const Area& area, const std::vector<Ring>& context, double left, double top, double widest,
+        double highest) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     low = V2d(kInfinite, kInfinite);
     high = -low;
-    for (const Edge& edge : area.edges()) {
-      low = V2d(std::min(low.x, edge.from.x), std::min(low.y, edge.from.y));
-      high = V2d(std::max(high.x, edge.from.x), std::max(high.y, edge.from.y));
-    }
+    const auto include = [this](const V2d& p) {
+      low = V2d(std::min(low.x, p.x), std::min(low.y, p.y));
+      high = V2d(std::max(high.x, p.x), std::max(high.y, p.y));
+    };
+    for (const Edge& edge : area.edges()) include(edge.from);
+    for (const Ring& ring : context)
+      for (const V2d& p : ring) include(p);
     perUnit = std::min(widest / (high.x - low.x), highest / (high.y - low.y));
     frame = {left, top, left + perUnit * (high.x - low.x), top + perUnit * (high.y - low.y)};
   }
@@ -189,20 +194,26 @@ void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vecto
   }
 }
 
-// Below and above the levels, the smallest and the largest value: bands at the ends may reach far.
+size_t bandOf(double value, const std::vector<double>& levels) {
+  return static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin());
+}
+
+// The bands that the plan has. Below and above them, the smallest and the largest value: bands at the ends may
+// reach far.
 void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::vector<Color>& colors,
                 const Summary& summary, const std::string& unit, double left, double top, double height) {
   const double step = std::min(26., height / static_cast<double>(colors.size()));
+  const size_t lowest = bandOf(summary.smallest, levels), highest = bandOf(summary.largest, levels);
   canvas.text(left, top - 8, unit, "font-weight=\"bold\"");
-  for (size_t i = 0; i < colors.size(); ++i) {
-    const double bottom = top + step * static_cast<double>(colors.size() - i);
+  for (size_t i = lowest; i <= highest; ++i) {
+    const double bottom = top + step * static_cast<double>(highest + 1 - i);
     canvas.rectangle({left, bottom - step, left + 22, bottom},
                      fmt::format("fill=\"{}\" stroke=\"#444\" stroke-width=\".5\"", colors[i].text()));
-    if (i < levels.size()) canvas.text(left + 28, bottom - step + 4, luxText(levels[i]), "font-size=\"11\"");
+    if (i < highest) canvas.text(left + 28, bottom - step + 4, luxText(levels[i]), "font-size=\"11\"");
   }
   const std::string style = "font-size=\"11\" fill=\"#777\"";
   canvas.text(left + 28, top + 4, "max " + luxText(summary.largest), style);
-  canvas.text(left + 28, top + step * static_cast<double>(colors.size()) + 4,
+  canvas.text(left + 28, top + step * static_cast<double>(highest + 1 - lowest) + 4,
               "min " + luxText(summary.smallest), style);
 }
 
@@ -230,7 +241,7 @@ std::string luxText(double lux) {
 std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double> values,
                       const Drawing& drawing) {
   constexpr double kLeft = 54, kTop = 40;
-  const Scale scale(area, kLeft, kTop, 640, 560);
+  const Scale scale(area, drawing.context, kLeft, kTop, 640, 560);
   const Box& frame = scale.frame;
   const Field field(grid, values);
   const std::vector<double>& levels = drawing.levels;
@@ -262,11 +273,17 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
 
   std::vector<Box> taken;
   if (drawing.values) {
+    // In a dense grid, only those of every second, third ... column and row, which can then be read.
+    constexpr double kReadable = 7;  // pixels
     const double cell = std::min(grid.across.length(), grid.upwards.length()) * scale.perUnit;
-    const double size = std::clamp(cell * .32, 3.5, 11.);
-    for (size_t i = 0; i < grid.points.size(); ++i) {
-      const auto band =
-          static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), values[i]) - levels.begin());
+    const int stride = std::max(1, static_cast<int>(std::ceil(kReadable / (.32 * cell) - 1e-9)));
+    const double size = std::min(stride * cell * .32, 11.);
+    for (int at = 0; at < grid.columns * grid.rows; ++at) {
+      if (grid.pointOf[at] == Grid::kNone || at % grid.columns % stride != stride / 2 ||
+          at / grid.columns % stride != stride / 2)
+        continue;
+      const auto i = static_cast<size_t>(grid.pointOf[at]);
+      const size_t band = bandOf(values[i], levels);
       const double x = scale.x(grid.points[i].x), y = scale.y(grid.points[i].y);
       const std::string words = luxText(values[i]);
       const double halfWidth = .32 * size * static_cast<double>(words.size());

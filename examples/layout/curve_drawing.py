@@ -38,9 +38,10 @@ def curve_drawing(curves):
             path += f"H{x(at):.1f}V{y(value):.1f}"
         svg += f'<path d="{path}" fill="none" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
         svg += f'<circle cx="{x(seconds[-1]):.1f}" cy="{y(watts[-1]):.1f}" r="4" fill="{color}"/>\n'
-    row = y(0) - 14 * len(curves)
+    # Curves are steep at first and low in the end: above them on the right there is room.
+    left, row = RIGHT - 250, TOP + 14
     for (name, _, _), (color, dashes) in zip(curves, STYLES):
-        svg += (f'<path d="M{LEFT + 8} {row - 4:.1f}h30" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
-                + text(LEFT + 44, row, name, "start"))
+        svg += (f'<path d="M{left} {row - 4:.1f}h30" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
+                + text(left + 36, row, name, "start"))
         row += 14
     return svg + "</svg>\n"

@@ -308,6 +308,35 @@ TEST(GridDrawing, PictureIsWellFormed) {
   EXPECT_GE(numbers, 1u);
 }
 
+// The legend said "max 49.6" above a band from 90 on.
+TEST(GridDrawing, TheLegendEndsWhereValuesDo) {
+  const Area area = areaOf("carpet polygon road 0 0 12 0 0 0 8 0 0 8 6 0 0 6 0\n", "road");
+  const Grid grid = layGrid(area, 2, 0);
+  std::vector<double> values(grid.points.size(), 35);
+  values[0] = 14;
+  const std::string svg =
+      planAsSvg(area, grid, values, Drawing{"", {}, {10, 20, 30, 40, 50}, {{{-3, 0}, {8, 0}, {8, 6}}}, true});
+  EXPECT_NE(svg.find(">max 35<"), std::string::npos);
+  EXPECT_NE(svg.find(">20</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">40</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">10</text>"), std::string::npos);
+  // The axes include outlines beside the area.
+  EXPECT_NE(svg.find(">-2</text>"), std::string::npos);
+}
+
+// Numbers of 3.5 pixels could not be read.
+TEST(GridDrawing, InADenseGridFewerNumbersAreWritten) {
+  const Area area = areaOf("carpet polygon road 0 0 12 0 0 0 100 0 0 100 7 0 0 7 0\n", "road");
+  const Grid grid = layGrid(area, .8, 0);
+  const std::string svg = planAsSvg(area, grid, linear(grid), Drawing{"", {}, {}, {}, true});
+  size_t numbers = 0;
+  for (size_t at = svg.find("paint-order"); at != std::string::npos; at = svg.find("paint-order", at + 1))
+    ++numbers;
+  EXPECT_GT(numbers, 20u);
+  EXPECT_LT(numbers, grid.points.size() / 9);
+  EXPECT_EQ(svg.find("font-size=\"3"), std::string::npos);
+}
+
 // It had one tick at the side, and a gap as high as the legend above the remarks.
 TEST(GridDrawing, AStreetHasTicksAlongBothSidesAndItsRemarksBelowIt) {
   const Area area = areaOf("carpet polygon road 0 0 12 0 0 0 100 0 0 100 7 0 0 7 0\n", "road");
