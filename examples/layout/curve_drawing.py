@@ -22,8 +22,9 @@ def curve_drawing(curves):
         return (f'<text x="{at_x:.1f}" y="{at_y:.1f}" text-anchor="{anchor}" stroke="white" stroke-width="3" stroke-linejoin="round" '
                 f'paint-order="stroke">{html.escape(words)}</text>\n')
 
-    svg = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 360" font-family="sans-serif" font-size="12">\n'
-           '<rect width="640" height="360" fill="white"/>\n'
+    height = 368 + 14 * len(curves)
+    svg = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 {height}" font-family="sans-serif" font-size="12">\n'
+           f'<rect width="640" height="{height}" fill="white"/>\n'
            + text(LEFT, 22, "The best layout known that meets all goals (W)", "start")
            + text((LEFT + RIGHT) / 2, 350, "processor time (s)", "middle"))
     step = 10 ** math.floor(math.log10(most / 3))
@@ -38,10 +39,9 @@ def curve_drawing(curves):
             path += f"H{x(at):.1f}V{y(value):.1f}"
         svg += f'<path d="{path}" fill="none" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
         svg += f'<circle cx="{x(seconds[-1]):.1f}" cy="{y(watts[-1]):.1f}" r="4" fill="{color}"/>\n'
-    # Curves are steep at first and low in the end: above them on the right there is room.
-    left, row = RIGHT - 250, TOP + 14
+    row = 374
     for (name, _, _), (color, dashes) in zip(curves, STYLES):
-        svg += (f'<path d="M{left} {row - 4:.1f}h30" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
-                + text(left + 36, row, name, "start"))
+        svg += (f'<path d="M{LEFT} {row - 4:.1f}h30" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
+                + text(LEFT + 36, row, name, "start"))
         row += 14
     return svg + "</svg>\n"
