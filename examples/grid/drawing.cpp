@@ -198,8 +198,8 @@ size_t bandOf(double value, const std::vector<double>& levels) {
   return static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin());
 }
 
-// The bands that the plan has. Below and above them, the smallest and the largest value: bands at the ends may
-// reach far.
+// The bands that the plan has. Below and above them, the smallest and the largest value: bands at the ends
+// may reach far.
 void drawLegend(Canvas& canvas, const std::vector<double>& levels, const std::vector<Color>& colors,
                 const Summary& summary, const std::string& unit, double left, double top, double height) {
   const double step = std::min(26., height / static_cast<double>(colors.size()));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/point_picture.h"
 #include "points/sphere_options.h"
 #include "rays/ray_options.h"
 #include "records/number_format.h"
@@ -42,6 +43,7 @@ struct AnswerOptions {
   std::string program;             // argv[0] without its folder; for the header, like `words`
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
   std::string picture;             // -Si  name of the pictures; empty: none
+  PictureForm pictureForm;         // -Siw -Sih -Sie
   RayOptions pictureRay;           // options of the pictures' rays
   bool listSpecial = false;        // -Sl  lists the special objects instead of answering records
   // work

@@ -7,6 +7,7 @@
 
 #include "answer/header.h"
 #include "answer/report_interval.h"
+#include "base/constants.h"
 #include "base/spectral_sampling.h"
 #include "pictures/draw_point.h"
 #include "process/threads.h"
@@ -36,8 +37,9 @@ class PictureMaker {
 };
 
 void PictureMaker::write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const {
-  const PixelMap map(file.format() == PictureFormat::radiance ? Projection::angularFisheye
-                                                              : Projection::latitudeLongitude);
+  const PixelMap map(
+      file.format() == PictureFormat::radiance ? Projection::angularFisheye : Projection::latitudeLongitude,
+      options_.pictureForm);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options_.ray));
   PictureProgress progress(file.name(), report_,
@@ -47,8 +49,10 @@ void PictureMaker::write(PictureFile& file, const V3d& point, const std::functio
     progress.at(done);
   };
   const bool forScreen = file.format() == PictureFormat::screen;
-  file.write(drawPoint(point, map, transport_, sources_, seed, forScreen, onward),
-             provenance(options_, transport_.prepared().scene().description.header) + viewLine(point));
+  const double white = options_.pictureForm.white / kPhotopicEfficacy;
+  file.write(drawPoint(point, map, transport_, sources_, seed, forScreen, white, onward),
+             provenance(options_, transport_.prepared().scene().description.header) +
+                 viewLine(point, options_.pictureForm.heading));
 }
 
 }  // namespace

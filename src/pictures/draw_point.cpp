@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -109,7 +108,7 @@ struct Pixels {
   void set(size_t pixel, const PixelSample& sample, bool hasIndirect) {
     seen.pixels[pixel] = sample.seen;
     indirect.light[pixel] = Imath::V3f(sample.indirect);
-    indirect.known[pixel] = hasIndirect ? 1 : 0;
+    indirect.known[pixel] = hasIndirect || !sample.leftOut.indirect ? 1 : 0;
     gloss.light[pixel] = Imath::V3f(sample.gloss);
     gloss.known[pixel] = sample.sharesGloss ? 1 : 0;
     direct.light[pixel] = Imath::V3f(sample.direct);
@@ -145,15 +144,14 @@ struct Pixels {
 // Averages the rays of a pixel, and decides whether they differ visibly.
 class RaysOfPixel {
  public:
-  // most: the largest value of a color that the picture can show.
-  RaysOfPixel(double exposure, double most) : exposure_(exposure), most_(most) {}
+  RaysOfPixel(const ToneCurve& curve, bool forScreen) : curve_(curve), forScreen_(forScreen) {}
 
   void add(const V3d& value) {
+    const V3d shown = curve_.shown(value);
     for (int c = 0; c < 3; ++c) {
-      const double shown = std::clamp(value[c], 0., most_), onScreen = sRgb(exposure_ * shown);
-      sum_[c] += shown;
-      darkest_[c] = std::min(darkest_[c], onScreen);
-      brightest_[c] = std::max(brightest_[c], onScreen);
+      sum_[c] += forScreen_ ? shown[c] : std::max(0., value[c]);
+      darkest_[c] = std::min(darkest_[c], sRgb(shown[c]));
+      brightest_[c] = std::max(brightest_[c], sRgb(shown[c]));
     }
     ++count_;
   }
@@ -162,10 +160,14 @@ class RaysOfPixel {
     return std::max({range.x, range.y, range.z}) > tuning::Pictures::kVisible;
   }
   // Empty without rays.
-  std::optional<V3d> mean() const { return count_ > 0 ? std::optional(sum_ / count_) : std::nullopt; }
+  std::optional<V3d> mean() const {
+    if (count_ == 0) return std::nullopt;
+    return forScreen_ ? curve_.radiance(sum_ / count_) : sum_ / count_;
+  }
 
  private:
-  double exposure_, most_;
+  const ToneCurve& curve_;
+  bool forScreen_;
   V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
   int count_ = 0;
 };
@@ -194,7 +196,7 @@ class Painter {
         sharing_(isLitByLamps(transport.prepared()) ? tuning::Pictures::kSharingByLamps
                                                     : tuning::Pictures::kSharing) {}
 
-  Raster draw(bool forScreen);
+  Raster draw(bool forScreen, double white);
 
  private:
   Pixels tracePixels();
@@ -202,12 +204,12 @@ class Painter {
   std::optional<PixelSample> middle(int column, int row, PixelParts parts);
   void gatherWhereUnknown(Pixels& pixels);
   void repeatDirect(Pixels& pixels);
-  std::vector<bool> uneven(const Raster& raster, double exposure) const;
+  std::vector<bool> uneven(const Raster& raster, const ToneCurve& curve) const;
   bool gathers(int column, int row) const;
   std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place);
   V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays);
   std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const;
-  void refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster);
+  void refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster);
   void addSmallSources(Raster& raster) const;
   size_t at(int column, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(map_.width()) + static_cast<size_t>(column);
@@ -332,13 +334,12 @@ void Painter::repeatDirect(Pixels& pixels) {
 }
 
 // Marks the pixels that differ visibly from a neighbor.
-std::vector<bool> Painter::uneven(const Raster& raster, double exposure) const {
+std::vector<bool> Painter::uneven(const Raster& raster, const ToneCurve& curve) const {
   std::vector<bool> marked(map_.count(), false);
   const auto differ = [&](size_t a, size_t b) {
-    const V3d of = exposure * valueAt(raster, a), other = exposure * valueAt(raster, b);
+    const V3d of = curve.shown(valueAt(raster, a)), other = curve.shown(valueAt(raster, b));
     for (int c = 0; c < 3; ++c)
-      if (std::abs(sRgb(std::max(0., of[c])) - sRgb(std::max(0., other[c]))) > tuning::Pictures::kVisible)
-        return true;
+      if (std::abs(sRgb(of[c]) - sRgb(other[c])) > tuning::Pictures::kVisible) return true;
     return false;
   };
   for (int row = 0; row < map_.height(); ++row)
@@ -397,10 +398,10 @@ V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays
   return rays.mean().value_or(pixels.value(pixel));
 }
 
-void Painter::refine(const Pixels& pixels, double exposure, bool forScreen, Raster& raster) {
-  const std::vector<bool> marked = uneven(raster, exposure);
+void Painter::refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster) {
+  const std::vector<bool> marked = uneven(raster, curve);
   const double all = std::max<double>(1, static_cast<double>(std::count(marked.begin(), marked.end(), true)));
-  const RaysOfPixel none(exposure, forScreen ? 1 / exposure : std::numeric_limits<double>::infinity());
+  const RaysOfPixel none(curve, forScreen);
   int done = 0;
   for (int row = 0; row < map_.height(); ++row) {
     report(kTracingShare + (1 - kTracingShare) * done / (all + 1));
@@ -421,7 +422,7 @@ void Painter::addSmallSources(Raster& raster) const {
   }
 }
 
-Raster Painter::draw(bool forScreen) {
+Raster Painter::draw(bool forScreen, double white) {
   Pixels pixels = tracePixels();
   smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
   smoothLight(pixels.seen, kOfGloss, pixels.gloss);
@@ -430,18 +431,19 @@ Raster Painter::draw(bool forScreen) {
   smoothDirect(pixels);
   Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
   for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));
-  const double exposure = exposureOf(raster, map_);
-  refine(pixels, exposure, forScreen, raster);
+  const ToneCurve curve(raster, map_, white);
+  refine(pixels, curve, forScreen, raster);
   addSmallSources(raster);
-  if (forScreen) toScreen(raster, exposure);
+  if (forScreen) toScreen(raster, curve);
   return raster;
 }
 
 }  // namespace
 
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
-                 const SeenSources& sources, uint64_t seed, bool forScreen, const DrawingProgress& progress) {
-  return Painter(point, map, transport, sources, seed, progress).draw(forScreen);
+                 const SeenSources& sources, uint64_t seed, bool forScreen, double white,
+                 const DrawingProgress& progress) {
+  return Painter(point, map, transport, sources, seed, progress).draw(forScreen, white);
 }
 
 }  // namespace rsphere

@@ -16,8 +16,8 @@ using DrawingProgress = std::function<void(double done)>;
 // Draws the radiance (W/sr/m2) that arrives at a point (world), in red, green and blue.
 // - One ray is traced through the middle of each pixel, four more where the picture has edges or noise, and
 //   another four where the first four differ. forScreen: the rays of a pixel are averaged as displayed
-//   colors, at the exposure of exposureOf(), so that windows and luminaires have smooth edges however bright
-//   they are.
+//   colors, by the ToneCurve of `white`, so that windows and luminaires have smooth edges however bright they
+//   are.
 // - The indirect light of visible surfaces is gathered at one pixel in four, or in nine without daylight,
 //   from -ad + -as rays. Nearby pixels share it, and also rough reflections and the light of sources
 //   (smooth_light.h).
@@ -27,7 +27,7 @@ using DrawingProgress = std::function<void(double done)>;
 // transport: with the options for pictures (pictureDefaults() in cli/option_table.h). All random numbers
 // follow from seed.
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
-                 const SeenSources& sources, uint64_t seed, bool forScreen,
+                 const SeenSources& sources, uint64_t seed, bool forScreen, double white = 0,
                  const DrawingProgress& progress = {});
 
 }  // namespace rsphere

@@ -29,6 +29,18 @@ bool sharesDirect(const Material& material, const SurfaceHit& hit) {
   return std::holds_alternative<Opaque>(material) || std::holds_alternative<Trans>(material);
 }
 
+// The number of panes of glass that a ray from the eye has passed straight; -1 if it was deflected.
+int panesBefore(const RayEnd& end, const Scene& scene) {
+  int panes = 0;
+  for (const RayEnd *at = &end, *before = at->context.parent; before;
+       at = before, before = at->context.parent, ++panes) {
+    if (at->context.kind != kTransmitted || at->ray.direction != before->ray.direction) return -1;
+    const Material* const passed = scene.materialOf(scene.surfaces[before->hit.surface]);
+    if (passed && !std::holds_alternative<Glass>(*passed)) return -1;
+  }
+  return panes;
+}
+
 }  // namespace
 
 // Components are not separated in a participating medium, because the observer sees them before the medium
@@ -52,42 +64,61 @@ PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts p
 }
 
 PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelParts parts) {
-  Radiance indirect, gloss, brought;  // brought: light of all rays that the surface sends out
+  // The surface that the pixel shows, which may be behind panes. All light is as it arrives at the eye.
+  SurfaceHit shown;
+  int panes = 0;
+  double distance = 0;
+  Radiance value, indirect, gloss, brought;  // brought: light of all rays that the surface sends out
+  const RayEnd* from = nullptr;
+  // Children are observed before their parents: the first straight ray to finish is the one that ends at the
+  // surface, and the rays of the surface are the ones just before it.
   const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
+    if (shown.surface != kNone) return;
     const PathContext& ray = end.context;
-    if (ray.depth != 1) return;
-    if (ray.kind & kAmbient) indirect += result.value * ray.contribution;
-    if (ray.kind & kSpecular) gloss += result.value * ray.contribution;
-    if (!(ray.kind & kShadow)) brought += result.value * ray.contribution;
+    const Radiance arriving = result.value * ray.contribution;
+    if (const int passed = panesBefore(end, prepared_.scene()); passed >= 0) {
+      if (end.hit.surface == kNone) return;
+      shown = end.hit;
+      panes = passed;
+      distance = ray.pathLength + end.hit.length;
+      value = arriving;
+      if (from != &end) indirect = gloss = brought = {};
+      return;
+    }
+    if (!ray.parent || panesBefore(*ray.parent, prepared_.scene()) < 0) return;
+    if (from != ray.parent) indirect = gloss = brought = {};
+    from = ray.parent;
+    if (ray.kind & kAmbient) indirect += arriving;
+    if (ray.kind & kSpecular) gloss += arriving;
+    if (!(ray.kind & kShadow)) brought += arriving;
   };
   const TracedRay ray = tracer_.trace(point_, direction, 0, seed,
                                       {.observer = &separate,
                                        .leavesOutIndirect = parts != PixelParts::all,
                                        .leavesOutLobes = parts == PixelParts::restAlone});
-  const Hit& hit = ray.firstHit;
   const SpectralSampling* const sampling = prepared_.options().sampling;
   PixelSample sample;
   sample.leftOut = ray.leftOut;
   sample.shown = ray.shown;
   sample.rest = shownRgb(ray.value.color, sampling);
-  sample.pattern = shownRgb(ray.pattern, sampling);
+  sample.pattern = shownRgb(shown.pattern, sampling);
   // Indirect light is divided by the pattern, which is impossible if the pattern is black in a channel.
   const V3d& pattern = sample.pattern;
-  if (hit.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
+  if (shown.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
     return sample;
-  const ModifierId id = prepared_.scene().surfaces[hit.surface].material;
+  const ModifierId id = prepared_.scene().surfaces[shown.surface].material;
   const Material* const material = prepared_.scene().materialAt(id);
   if (!material) return sample;
-  sample.sharesGloss = sharesGloss(*material, ray);
-  sample.sharesDirect = sharesDirect(*material, ray);
+  sample.sharesGloss = sharesGloss(*material, shown);
+  sample.sharesDirect = sharesDirect(*material, shown);
   if (!sample.sharesGloss) gloss = {};
-  const Radiance direct = sample.sharesDirect ? ray.value - brought : Radiance();
+  const Radiance direct = sample.sharesDirect ? value - brought : Radiance();
   sample.rest = shownRgb((ray.value - indirect - gloss - direct).color, sampling);
   sample.indirect = shownRgb(indirect.color, sampling) / pattern;
   sample.gloss = shownRgb(gloss.color, sampling);
   sample.direct = shownRgb(direct.color, sampling);
-  sample.seen = {id, Imath::V3f(hit.distance * direction), Imath::V3f(hit.normal),
-                 static_cast<float>(hit.distance)};
+  sample.seen = {id, Imath::V3f(distance * direction), Imath::V3f(shown.normal), static_cast<float>(distance),
+                 panes};
   return sample;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/screen_color.h"
+#include "pictures/tuning.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
@@ -16,20 +17,36 @@ namespace {
 
 using std::numbers::pi;
 
+// The angle from +y to the heading, in radians; 0 exactly where they are equal.
+double turnOf(double heading) { return (heading - 90) * (pi / 180); }
+
 }  // namespace
 
+PixelMap::PixelMap(Projection projection, const PictureForm& form)
+    : projection_(projection),
+      cosine_(std::cos(turnOf(form.heading))),
+      sine_(std::sin(turnOf(form.heading))) {
+  const bool fisheye = projection == Projection::angularFisheye;
+  width_ = form.width > 0 ? form.width : fisheye ? tuning::Pictures::kFisheyeSide : 1024;
+  height_ = fisheye ? width_ : std::max(1, width_ / 2);
+}
+
 std::optional<V3d> PixelMap::direction(double x, double y) const {
+  const auto turned = [this](double right, double forward, double up) {
+    return V3d(cosine_ * right - sine_ * forward, sine_ * right + cosine_ * forward, up);
+  };
   if (projection_ == Projection::latitudeLongitude) {
     const double polar = pi * y / height_, right = 2 * pi * (x / width_ - .5), sine = std::sin(polar);
-    return V3d(sine * std::sin(right), sine * std::cos(right), std::cos(polar));
+    return turned(sine * std::sin(right), sine * std::cos(right), std::cos(polar));
   }
   const double right = 2 * x / width_ - 1, up = 1 - 2 * y / height_, radius = std::hypot(right, up);
   if (radius > 1) return std::nullopt;
   const double sine = std::sin(pi * radius), scale = radius > 0 ? sine / radius : 0;
-  return V3d(right * scale, std::cos(pi * radius), up * scale);
+  return turned(right * scale, std::cos(pi * radius), up * scale);
 }
 
-size_t PixelMap::pixelOf(const V3d& d) const {
+size_t PixelMap::pixelOf(const V3d& world) const {
+  const V3d d(cosine_ * world.x + sine_ * world.y, cosine_ * world.y - sine_ * world.x, world.z);
   double x = 0, y = 0;
   if (projection_ == Projection::latitudeLongitude) {
     x = (.5 + std::atan2(d.x, d.y) / (2 * pi)) * width_;
@@ -56,7 +73,9 @@ double PixelMap::solidAngle(size_t pixel) const {
   return radius > 0 ? square * std::sin(pi * radius) / (pi * radius) : square;
 }
 
-double exposureOf(const Raster& raster, const PixelMap& map) {
+ToneCurve::ToneCurve(const Raster& raster, const PixelMap& map, double white)
+    : exposure_(white > 0 ? 1 / white : 0) {
+  if (white > 0) return;
   std::vector<std::pair<double, double>> lit;  // brightness, solid angle
   double all = 0;
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
@@ -71,16 +90,46 @@ double exposureOf(const Raster& raster, const PixelMap& map) {
     median = b;
     if ((sum += solidAngle) >= all / 2) break;
   }
-  return median > 0 ? kMidBright / median : 1;
+  // The operator, without a bound, shows an exposed brightness L as L / (1 + L).
+  exposure_ = median > 0 ? kMidBright / (1 - kMidBright) / median : 1;
+  white_ = std::max(tuning::Pictures::kLeastWhite, median > 0 ? exposure_ * lit.back().first : 0);
 }
 
-void toScreen(Raster& raster, double exposure) {
-  for (float& p : raster.pixels) p = static_cast<float>(sRgb(std::max(0., exposure * p)));
+V3d ToneCurve::shown(const V3d& radiance) const {
+  double factor = exposure_;
+  if (white_ > 0) {
+    const double exposed = std::max(0., exposure_ * brightness(Color(radiance)));
+    factor *= (1 + exposed / (white_ * white_)) / (1 + exposed);
+  }
+  V3d shown = factor * radiance;
+  for (int c = 0; c < 3; ++c) shown[c] = std::clamp(shown[c], 0., 1.);
+  return shown;
 }
 
-std::string viewLine(const V3d& p) {
-  return fmt::format("VIEW= -vta -vp {} {} {} -vd 0 1 0 -vu 0 0 1 -vh 360 -vv 360 -vo 0 -va 0 -vs 0 -vl 0\n",
-                     p.x, p.y, p.z);
+V3d ToneCurve::radiance(const V3d& shown) const {
+  double factor = 1 / exposure_;
+  if (white_ > 0) {
+    // The solution L of b = L (1 + L / white^2) / (1 + L), divided by b.
+    const double b = brightness(Color(shown)), rest = std::max(0., 1 - b);
+    factor *= 2 / (rest + std::sqrt(rest * rest + 4 * b / (white_ * white_)));
+  }
+  return factor * shown;
+}
+
+void toScreen(Raster& raster, const ToneCurve& curve) {
+  for (size_t pixel = 0; pixel < raster.pixels.size() / 3; ++pixel) {
+    V3d color = curve.shown(valueAt(raster, pixel));
+    for (int c = 0; c < 3; ++c) color[c] = sRgb(color[c]);
+    setValue(raster, pixel, color);
+  }
+}
+
+std::string viewLine(const V3d& p, double heading) {
+  const double turn = turnOf(heading);
+  const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9 + 0.; };  // + 0.: not -0
+  return fmt::format(
+      "VIEW= -vta -vp {} {} {} -vd {} {} 0 -vu 0 0 1 -vh 360 -vv 360 -vo 0 -va 0 -vs 0 -vl 0\n", p.x, p.y,
+      p.z, rounded(-std::sin(turn)), rounded(std::cos(turn)));
 }
 
 namespace {

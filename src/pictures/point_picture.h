@@ -6,7 +6,6 @@
 #include <string>
 
 #include "image/picture_file.h"
-#include "pictures/tuning.h"
 #include "scene/scene.h"
 
 namespace rsphere {
@@ -22,14 +21,18 @@ enum class Projection {
   angularFisheye
 };
 
+// The form of pictures, as options give it.
+struct PictureForm {
+  int width = 0;        // -Siw  pixels; 0: see PixelMap
+  double heading = 90;  // -Sih  azimuth of the middle (degrees, counterclockwise from +x)
+  double white = 0;     // -Sie  luminance that is shown as white (cd/m2); 0: see ToneCurve
+};
+
 class PixelMap {
  public:
-  PixelMap(Projection projection, int width, int height)
-      : projection_(projection), width_(width), height_(height) {}
-  // With about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye).
-  explicit PixelMap(Projection projection)
-      : PixelMap(projection, projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 1024,
-                 projection == Projection::angularFisheye ? tuning::Pictures::kFisheyeSide : 512) {}
+  // The projections are described for the heading 90; others turn them about z. Without a width, there are
+  // about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye).
+  explicit PixelMap(Projection projection, const PictureForm& form = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -48,6 +51,7 @@ class PixelMap {
  private:
   Projection projection_;
   int width_, height_;
+  double cosine_, sine_;  // of the angle from +y to the heading
 };
 
 inline V3d valueAt(const Raster& raster, size_t pixel) {
@@ -60,12 +64,28 @@ inline void setValue(Raster& raster, size_t pixel, const V3d& value) {
     raster.pixels[3 * pixel + static_cast<size_t>(c)] = static_cast<float>(value[c]);
 }
 
-// The exposure at which the median brightness of all pixels that are not black, weighted by solid angle,
-// becomes .5 in sRGB. A room is then visible however bright its sources are.
-double exposureOf(const Raster& raster, const PixelMap& map);
+// Converts radiance (W/sr/m2) to what a screen shows, from 0 to 1 in linear sRGB.
+// - With a white of 0, the eye is taken to be adapted to the median brightness of all pixels that are not
+//   black, weighted by solid angle, and the median is shown mid-bright (.5 in sRGB, or a little more). The
+//   photographic operator compresses what is brighter, so that windows and lamps are not all white, and shows
+//   the brightest pixel as white. Source: Reinhard, Stark, Shirley, Ferwerda, "Photographic tone reproduction
+//   for digital images" (2002), equation 4; their key is the mean of the logarithm, which dark corners shift.
+// - Otherwise colors are proportional to radiance, and what is brighter than white is cut off.
+class ToneCurve {
+ public:
+  // white: in W/sr/m2.
+  ToneCurve(const Raster& raster, const PixelMap& map, double white);
+  V3d shown(const V3d& radiance) const;
+  // The radiance that is shown like this; the brightest one where that is white.
+  V3d radiance(const V3d& shown) const;
+
+ private:
+  double exposure_;
+  double white_ = 0;  // exposed brightness that becomes 1 by the operator; 0: colors are proportional
+};
 
 // Converts radiance to screen colors.
-void toScreen(Raster& raster, double exposure);
+void toScreen(Raster& raster, const ToneCurve& curve);
 
 // The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws
 // rad::Error if there is any other %, or if a record after the first has no %d, because its picture would
@@ -73,6 +93,6 @@ void toScreen(Raster& raster, double exposure);
 std::string pictureName(const std::string& pattern, uint64_t record);
 
 // The header line of a RADIANCE picture that describes the angular fisheye view, including its line end.
-std::string viewLine(const V3d& point);
+std::string viewLine(const V3d& point, double heading);
 
 }  // namespace rsphere

@@ -10,6 +10,7 @@ struct SeenSurface {
   ModifierId material;  // kNone: the pixel shares no light with others
   Imath::V3f point{0, 0, 0}, normal{0, 0, 0};
   float distance = 0;  // from the eye
+  int panes = 0;       // of glass in front of it
 };
 
 struct SeenSurfaces {

@@ -12,6 +12,10 @@ struct Pictures {
   // Height of a fisheye in pixels: the least that evalglare(1) of RADIANCE recommends.
   // tests/bench/sensitivity draws smaller pictures.
   RSPHERE_DERIVED(Pictures, int, kFisheyeSide, 800);
+  // Least exposed brightness that is shown as white (ToneCurve), 15 times the median: derived. If the
+  // brightest pixel became white in pictures without lamps and windows, their walls would be white. With
+  // this value, the median is shown as .504 in sRGB instead of .5.
+  static constexpr double kLeastWhite = 4;
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
   // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of
   // 1.4 pixels it would be 38%; with separate samples it is .1%.

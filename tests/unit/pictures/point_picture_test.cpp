@@ -45,12 +45,22 @@ TEST(PixelMap, AngularFisheyeIsRadiancesView) {
   EXPECT_LT((*map.direction(w, w / 2) - V3d(0, -1, 0)).length(), 1e-12);
   EXPECT_LT((*map.direction(.5 * w + .125 * w, w / 2) - V3d(1, 1, 0).normalized()).length(), 1e-12);
   EXPECT_FALSE(map.direction(.1 * w, .1 * w));
-  EXPECT_EQ(viewLine(V3d(1, -2.5, 1e-3)).find("VIEW= -vta -vp 1 -2.5 0.001 -vd 0 1 0 -vu 0 0 1 -vh 360"), 0u);
+  EXPECT_EQ(viewLine(V3d(1, -2.5, 1e-3), 90).find("VIEW= -vta -vp 1 -2.5 0.001 -vd 0 1 0 -vu 0 0 1 -vh 360"),
+            0u);
+}
+
+TEST(PixelMap, TheHeadingIsInTheMiddle) {
+  for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
+    const PixelMap map(projection, {.width = 10, .heading = 30});
+    EXPECT_LT((*map.direction(5, map.height() / 2.) - V3d(std::sqrt(3) / 2, .5, 0)).length(), 1e-12);
+    EXPECT_LT((*map.direction(7.5, map.height() / 2.) - V3d(.5, -std::sqrt(3) / 2, 0)).length(), 1e-12);
+  }
+  EXPECT_NE(viewLine(V3d(0, 0, 0), 30).find(" -vd 0.866025404 0.5 0 "), std::string::npos);
 }
 
 TEST(PixelMap, PixelsShowTheirDirectionsAndCoverTheSphere) {
   for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
-    const PixelMap map(projection, 100, projection == Projection::angularFisheye ? 100 : 50);
+    const PixelMap map(projection, {.width = 100, .heading = 25});
     double sum = 0;
     for (size_t pixel = 0; pixel < map.count(); ++pixel) {
       sum += map.solidAngle(pixel);
@@ -84,7 +94,7 @@ struct Drawn : SphereSetting {
       : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
         pictures(*transport, picturesWith(bounces)),
         sources(pictures.prepared()),
-        map(projection, width, projection == Projection::angularFisheye ? width : width / 2) {
+        map(projection, {.width = width}) {
     SphereOptions o = options.sphere;
     o.baseDirections = 4096;
     o.mostDirections = 8192;
@@ -95,7 +105,7 @@ struct Drawn : SphereSetting {
     raster = again(point, seed);
   }
   Raster again(const V3d& point, uint64_t seed, const DrawingProgress& progress = {}) const {
-    return drawPoint(point, map, pictures, sources, seed, false, progress);
+    return drawPoint(point, map, pictures, sources, seed, false, 0, progress);
   }
   double at(size_t pixel) const { return raster.pixels[3 * pixel + 1]; }
   double towards(const V3d& direction) const { return at(map.pixelOf(direction.normalized())); }
@@ -253,6 +263,15 @@ double grainOf(const std::function<double(int column, int row)>& at, int firstRo
       ++count;
     }
   return std::sqrt(squares / count) / (sum / count);
+}
+
+// Behind glass no pixel shared the indirect light of the wall with its neighbors. The glass reflects nothing.
+TEST(PointPicture, WallsBehindGlassHaveNoGrain) {
+  const Drawn drawn(room("window ring w 0 0 8 2.8 0 0 -1 0 0 0 .6\nvoid glass pane 0 0 4 .9 .9 .9 1\n"
+                         "pane bubble case 0 0 4 0 0 0 1\n"),
+                    V3d(.2, -.3, .1), 1, Projection::latitudeLongitude, 256);
+  const auto at = [&](int column, int row) { return drawn.at(static_cast<size_t>(256 * row + column)); };
+  EXPECT_LT(grainOf(at, 10, 45), .02);
 }
 
 // Shadow rays to random places of a lamp made every wall and every soft shadow grainy.
@@ -448,8 +467,28 @@ TEST(SmoothLight, ColumnsWrapWhereTheyAreToldTo) {
 
 // ---- exposure and names
 
+TEST(ToneCurve, ShowsWhatLiesBehindBlindsAndCanBeInverted) {
+  const PixelMap map(Projection::latitudeLongitude, {.width = 64});
+  Raster raster{64, 32, {}};
+  // A room of 1, a sky of 30 behind slats of 8: a linear exposure, .214 for the room, would cut off both.
+  for (size_t pixel = 0; pixel < map.count(); ++pixel)
+    raster.pixels.insert(raster.pixels.end(), 3, pixel % 64 < 60 ? 1 : pixel % 2 ? 30 : 8);
+  for (const double white : {0., 2.}) {
+    const ToneCurve curve(raster, map, white);
+    const double contrast = curve.shown(V3d(30)).y - curve.shown(V3d(8)).y;
+    if (white > 0)
+      EXPECT_EQ(contrast, 0);
+    else
+      EXPECT_GT(contrast, .2);
+    for (const double value : {.01, 1., 2.}) {
+      const V3d color(value, .5 * value, .2 * value);
+      EXPECT_LT((curve.radiance(curve.shown(color)) - color).length(), 1e-9 * value);
+    }
+  }
+}
+
 TEST(PointPicture, TheMedianOfWhatIsNotBlackIsMidBright) {
-  const PixelMap map(Projection::latitudeLongitude, 64, 32);
+  const PixelMap map(Projection::latitudeLongitude, {.width = 64});
   Raster raster{64, 32, {}};
   // A fifth is black, two fifths are 1, a fifth 2; the rest has a million, which a mean would follow.
   for (size_t pixel = 0; pixel < map.count(); ++pixel) {
@@ -457,14 +496,20 @@ TEST(PointPicture, TheMedianOfWhatIsNotBlackIsMidBright) {
     const float value = k == 0 ? 0 : k <= 2 ? 1 : k == 3 ? 2 : 1e6f;
     raster.pixels.insert(raster.pixels.end(), 3, value);
   }
-  toScreen(raster, exposureOf(raster, map));
+  Raster linear = raster;
+  toScreen(raster, ToneCurve(raster, map, 0));
+  toScreen(linear, ToneCurve(linear, map, 4));
   const auto at = [&](size_t column) { return raster.pixels[3 * (64 * 16 + column)]; };
+  // By the photographic operator, with .2723 / 1.2723 = .2140, which is .5 in sRGB.
+  const auto screen = [](double x) { return 1.055 * std::pow(x, 1 / 2.4) - .055; };
   EXPECT_EQ(at(0), 0);
   EXPECT_NEAR(at(20), .5, 1e-3);
-  EXPECT_NEAR(at(45), 1.055 * std::pow(2 * .21404114, 1 / 2.4) - .055, 1e-3);
+  EXPECT_NEAR(at(45), screen(2 * .2723 / (1 + 2 * .2723)), 1e-3);
   EXPECT_EQ(at(60), 1);
+  // With a given white, in proportion.
+  EXPECT_NEAR(linear.pixels[3 * (64 * 16 + 45)], screen(.5), 1e-3);
   Raster black{8, 4, std::vector<float>(96)};
-  toScreen(black, exposureOf(black, PixelMap(Projection::latitudeLongitude, 8, 4)));
+  toScreen(black, ToneCurve(black, PixelMap(Projection::latitudeLongitude, {.width = 8}), 0));
   for (const float p : black.pixels) EXPECT_EQ(p, 0);
 }
 
