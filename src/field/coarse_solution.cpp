@@ -198,7 +198,8 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
           tuning::CoarseSolution::kRays * rays * std::max(1., 1 / accuracy),
           0,
           tuning::CoarseSolution::kMoreRays,
-          tuning::CoarseSolution::kLeastRays,
+          options.solutions > 1 ? tuning::CoarseSolution::kLeastRaysOfSolutions
+                                : tuning::CoarseSolution::kLeastRays,
           rays,
           share,
           tuning::CoarseSolution::kFewestForSlopes};

@@ -178,6 +178,10 @@ struct CoarseSolution {
   static constexpr double kFewestForSlopes = 32;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
+  // The same by daylight where there are several solutions, whose light is averaged: one ray from each site.
+  // Measured with -Sa .01: with 8, sensors in a sunlit classroom take 1.4 times the time for the same error,
+  // and sensors below north lights 1.06 (tests/bench/rtrace/runs/2026-11-29-sensors.txt).
+  static constexpr double kLeastRaysOfSolutions = 4;
   // The -aa at which kSpacing of tuning::CoarseSolution is the relative side of a patch, and kRays its
   // relative number of rays.
   static constexpr double kUsualAccuracy = .1;

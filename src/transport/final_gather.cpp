@@ -69,6 +69,7 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
 PatchLinks TracedFieldRays::link(std::span<const PatchSite> sites, int rays, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, sites.front().site.normal);
   PatchLinks links;
+  links.links.reserve(static_cast<size_t>(rays));  // most rays make one link
   path.state.links = &links;
   path.state.descendants = descendantsOfPatch(rays, depth_);
   // One set of directions for all sites: each site uses some of the directions, as far apart as possible.
