@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -145,6 +146,11 @@ Settings settingsOf(const std::vector<std::string>& words) {
   }
   if (s.surfaces.empty() && !s.allPolygons) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
+  // rtrace, which reads the files again, would find a pipe empty.
+  for (const std::string& file : s.files)
+    if (std::filesystem::is_fifo(file))
+      throw rad::Error(
+          fmt::format("{}: is a pipe, and files are read twice: write it to a file first", file));
   if (s.unit != "lx" && s.unit != kRadiant && s.readings.empty())
     throw rad::Error(fmt::format("-q is for what -i reads; without -i, {} is the only other unit", kRadiant));
   rsphere::requireSvgName("-o", s.picture, "the plan");
