@@ -1,6 +1,7 @@
 #include "base/observers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,17 +14,17 @@ namespace {
 constexpr double kColorShift = 1.5;
 
 // The cumulative integral of a curve, normalized to 1 at its longest wavelength. Between two values of the
-// table, 1 nm apart, the curve is constant at their mean.
+// table the curve is constant at their mean.
 class Cumulative {
  public:
-  explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), upTo_{0} {
+  explicit Cumulative(const CieCurve& curve) : shortest_(curve.shortest), step_(curve.step), upTo_{0} {
     for (size_t i = 1; i < curve.values.size(); ++i)
       upTo_.push_back(upTo_.back() + (curve.values[i - 1] + curve.values[i]) / 2);
     for (double& share : upTo_) share /= upTo_.back();
   }
 
   double upTo(double wavelength) const {
-    const double at = wavelength - shortest_;
+    const double at = (wavelength - shortest_) / step_;
     if (!(at > 0)) return 0;
     const auto i = static_cast<size_t>(std::min(at, static_cast<double>(upTo_.size())));
     if (i + 1 >= upTo_.size()) return 1;
@@ -42,7 +43,7 @@ class Cumulative {
   }
 
  private:
-  double shortest_;
+  double shortest_, step_;
   std::vector<double> upTo_;
 };
 
@@ -70,6 +71,14 @@ double scotopic(const Spectrum& spectrum) {
 double melanopic(const Spectrum& spectrum) {
   static const Cumulative curve(melanopicSensitivity());
   return curve.of(spectrum);
+}
+
+double seenBy(Receptor receptor, const Spectrum& spectrum) {
+  static const std::array<Cumulative, 3> cones{Cumulative(sConeSensitivity()), Cumulative(mConeSensitivity()),
+                                               Cumulative(lConeSensitivity())};
+  if (receptor == Receptor::rod) return scotopic(spectrum);
+  if (receptor == Receptor::melanopsin) return melanopic(spectrum);
+  return cones[static_cast<size_t>(receptor)].of(spectrum);
 }
 
 // The limits of bands are rounded down to whole nanometers. Before that, the ends of the spectrum are rounded

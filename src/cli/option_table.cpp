@@ -158,6 +158,23 @@ void setColorSpace(Options& options, const OptionEntry& entry, std::span<const s
     if (name == entry.name) options.color.space = space;
 }
 
+// The receptors of -pE by the symbols of CIE S 026, in the order of Receptor.
+constexpr std::array<std::string_view, 5> kReceptors = {"sc", "mc", "lc", "rh", "mel"};
+
+void setReceptor(Options& options, const OptionEntry& entry, std::span<const std::string>,
+                 std::string_view rest) {
+  const auto found = std::find(kReceptors.begin(), kReceptors.end(), rest);
+  if (found == kReceptors.end())
+    commandLineError(fmt::format("{}{}", entry.name, rest), "it is -pEsc, -pEmc, -pElc, -pErh or -pEmel");
+  options.color.space = ColorSpace::edi;
+  options.color.receptor = static_cast<Receptor>(found - kReceptors.begin());
+}
+
+std::string receptorLine(const Options& o) {
+  if (o.color.space != ColorSpace::edi) return "";
+  return fmt::format("-pE{}\t\t\t\t", kReceptors[static_cast<size_t>(o.color.receptor)]);
+}
+
 void setPrimaries(Options& options, const OptionEntry& entry, std::span<const std::string> words,
                   std::string_view) {
   for (size_t i = 0; i < words.size(); ++i) {
@@ -317,6 +334,10 @@ constexpr OptionEntry kOptions[] = {
      {.line = spaceLine<ColorSpace::scotopic>}},
     {{"-pM", "", "melanopic output", Group::color, Custom{setColorSpace}},
      {.line = spaceLine<ColorSpace::melanopic>}},
+    {{"-pE", "receptor", "equivalent daylight illuminance", Group::color, Custom{setReceptor}},
+     {.help = "lux of daylight with equal effect: sc, mc, lc cones, rh rods, mel",
+      .glued = true,
+      .line = receptorLine}},
     {{"-pA", "", "radiometric average output", Group::color, Custom{setColorSpace}},
      {.line = spaceLine<ColorSpace::average>}},
     {{"-pc", "xr yr xg yg xb yb xw yw", "output color primaries and white point", Group::color,

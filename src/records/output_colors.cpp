@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -20,6 +21,10 @@ constexpr double kMelanopicEfficacy = 179;  // RADIANCE's choice
 // and blue. They are the values that rtrace -pS and -pM of RADIANCE 6.1a print for pure red, green and blue.
 const Color kScotopicWeights(740 / 65535., 46459 / 65535., 18336 / 65535.);
 const Color kMelanopicWeights(120 / 65535., 39340 / 65535., 26075 / 65535.);
+
+// EDI of light of equal energy at all wavelengths, in units of its illuminance: the ratio of the integrals of
+// action spectrum and V(lambda), by D65's efficacy: .8173, 1.4558, 1.6289, 1.4497, 1.3262 mW/lm (CIE S 026).
+constexpr std::array<double, 5> kEdiOfEqualEnergy = {.9255, .9594, 1.0061, .9175, .9058};
 
 constexpr double kLeastRange = 50;  // nm, between the limits of -cw
 
@@ -81,6 +86,19 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options), sam
       break;
     case ColorSpace::scotopic: oneChannel(kScotopicWeights, kScotopicEfficacy); break;
     case ColorSpace::melanopic: oneChannel(kMelanopicWeights, kMelanopicEfficacy); break;
+    case ColorSpace::edi: {
+      // Unlike those of rtrace's options, these curves and limits of bands are not shifted.
+      static constexpr std::array<double, 1> kOne{1};
+      const auto seen = [&](double from, double to) { return seenBy(options.receptor, {kOne, from, to}); };
+      const auto [red, green] = spectralSampling(3, 380, 780).splits;
+      oneChannel(Color(seen(780, red), seen(red, green), seen(green, 380)),
+                 kPhotopicEfficacy * kEdiOfEqualEnergy[static_cast<size_t>(options.receptor)]);
+      for (int i = 0; sampling_ && i < options.bands; ++i) {
+        const double from = sampling_->longest - i * sampling_->width();
+        seen_.push_back(seen(from, from - sampling_->width()));
+      }
+      break;
+    }
     case ColorSpace::average: oneChannel(Color(1 / 3., 1 / 3., 1 / 3.), 1); break;
     case ColorSpace::spectrum: count_ = options.bands; break;
   }
@@ -97,6 +115,7 @@ void OutputColors::write(RecordText& text, const Color& color, double scale) con
     case ColorSpace::photopic:
     case ColorSpace::scotopic:
     case ColorSpace::melanopic:
+    case ColorSpace::edi:
     case ColorSpace::average:
       return text.number(scale * (weights_.x * color.x + weights_.y * color.y + weights_.z * color.z));
   }
@@ -118,6 +137,7 @@ void OutputColors::writeBands(RecordText& text, const Bands& bands, double scale
     case ColorSpace::photopic: return text.number(scale * sum(sampling_->photopic));
     case ColorSpace::scotopic: return text.number(scale * sum(bandWeights_.scotopic));
     case ColorSpace::melanopic: return text.number(scale * sum(bandWeights_.melanopic));
+    case ColorSpace::edi: return text.number(scale * sum(seen_));
     case ColorSpace::average:
       return text.number(std::accumulate(values.begin(), values.end(), 0.) /
                          static_cast<double>(values.size()));
@@ -162,9 +182,10 @@ void checkColors(const ColorOptions& options) {
     throw rad::Error("illegal primary chromaticities");
   constexpr double kShortest = 380, kLongest = 780;
   const bool whole = options.shortest == kShortest && options.longest == kLongest;
-  const bool sums = options.space == ColorSpace::scotopic || options.space == ColorSpace::melanopic;
+  const bool sums = options.space >= ColorSpace::scotopic && options.space <= ColorSpace::edi;
   if (options.bands == 3 && !whole && sums)
-    throw rad::Error("-pS and -pM of three channels need the whole spectrum (-cw 380 780, or -cs above 3)");
+    throw rad::Error(
+        "-pS, -pM and -pE of three channels need the whole spectrum (-cw 380 780, or -cs above 3)");
 }
 
 bool haveStandardErrors(const ColorOptions& options) {

@@ -1,7 +1,9 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/observers.h"
 #include "base/primaries.h"
 #include "base/radiometry.h"
 #include "base/spectral_sampling.h"
@@ -16,6 +18,7 @@ enum class ColorSpace : uint8_t {
   photopic,   // -pY -pS -pM: one channel, in lumens (-pM: scaled as in rtrace)
   scotopic,
   melanopic,
+  edi,      // -pE  one channel, in lux
   average,  // -pA  one channel
   spectrum  // -co
 };
@@ -24,6 +27,7 @@ enum class ColorSpace : uint8_t {
 struct ColorOptions {
   ColorSpace space = ColorSpace::rgb;
   Primaries primaries{};                 // -pc
+  Receptor receptor{};                   // -pE
   int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
 
@@ -41,13 +45,14 @@ struct ColorOptions {
 //                the "sharp" transform; colors outside the gamut are mixed with grey until no channel
 //                is negative
 //   -pY -pS -pM  luminance (times 179 lm/W), scotopic luminance (412 lm/W), melanopic (179)
+//   -pE          equivalent daylight illuminance (CIE S 026) for a receptor of the eye
 //   -pA          the mean of all channels or bands
 //   -co          the bands, if there are more than three (-cs)
 // In a spectral run (-cs above 3), all of these are computed from the bands, as in rtrace; this includes
 // colors without bands. In a run of three channels each channel represents a part of the spectrum: red from
 // 588 nm up, green from 480 nm, blue below.
 // Source: rtrace(1); G. Finlayson, S. Suesstrunk, "Spectral sharpening and the Bradford transform" (2000);
-// CIE 15:2018 for X, Y, Z and V'(lambda), CIE S 026 for melanopic.
+// CIE 15:2018 for X, Y, Z and V'(lambda), CIE S 026 for melanopic and EDI.
 class OutputColors {
  public:
   explicit OutputColors(const ColorOptions& options);
@@ -76,9 +81,10 @@ class OutputColors {
   const SpectralSampling* sampling_;
   int count_ = 3;
   double scale_ = 1;
-  Color weights_{0, 0, 0};   // of the channels, if a color has one value
-  Matrix matrix_{};          // if it has three: from RGB, or in a spectral run from X, Y and Z
-  BandWeights bandWeights_;  // of a spectral run
+  Color weights_{0, 0, 0};    // of the channels, if a color has one value
+  Matrix matrix_{};           // if it has three: from RGB, or in a spectral run from X, Y and Z
+  BandWeights bandWeights_;   // of a spectral run
+  std::vector<double> seen_;  // -pE: of its bands
 };
 
 // Throws rad::Error with rtrace's text if the bands or limits are impossible, or if the primaries span no

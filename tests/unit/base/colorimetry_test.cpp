@@ -59,6 +59,15 @@ TEST(CieTables, PeaksAreWhereTheCieHasThem) {
     EXPECT_EQ(c.shortest, 380);
     EXPECT_EQ(c.longest(), 780);
   }
+  for (const auto& [c, peak] : {std::pair(sConeSensitivity(), 445), std::pair(mConeSensitivity(), 540),
+                                std::pair(lConeSensitivity(), 570)}) {
+    EXPECT_EQ(c.shortest, 390);
+    const auto highest = std::max_element(c.values.begin(), c.values.end());
+    EXPECT_EQ(c.shortest + 5 * (highest - c.values.begin()), peak);
+    EXPECT_NEAR(*highest, 1, .01);
+  }
+  EXPECT_EQ(sConeSensitivity().longest(), 615);
+  EXPECT_EQ(lConeSensitivity().longest(), 780);
 }
 
 TEST(Colorimetry, EqualEnergyIsWhite) {
@@ -69,6 +78,7 @@ TEST(Colorimetry, EqualEnergyIsWhite) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(xyz[i], 1, 1e-14);
     EXPECT_NEAR(scotopic(white), 1, 1e-14);
     EXPECT_NEAR(melanopic(white), 1, 1e-14);
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(seenBy(static_cast<Receptor>(i), white), 1, 1e-14);
     const V3d rgb = standardRgb(xyz);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(rgb[i], 1, 1e-13);
   }

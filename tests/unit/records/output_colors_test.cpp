@@ -131,6 +131,52 @@ TEST(OutputColors, OneBandHasItsShareOfTheCurve) {
   EXPECT_NEAR(writtenOf20({"-pS"}, cyan)[0], 412 * scotopic, .005 * 412 * scotopic);
 }
 
+// D65, the means of 20 bands from 780 nm down to 380 nm, from CIE 15's table of 5 nm by the trapezoidal rule.
+constexpr std::array<double, 20> kD65 = {60.85,  62.17,  69.12,  70.48, 72.33,  80.76,  80.99,
+                                         84.49,  89.23,  90.79,  97.11, 103.12, 106.14, 107.44,
+                                         110.72, 115.86, 114.17, 92.92, 89.79,  60.51};
+
+constexpr std::array<const char*, 5> kReceptors = {"-pEsc", "-pEmc", "-pElc", "-pErh", "-pEmel"};
+
+// Light of D65 has an EDI equal to its illuminance for each receptor (CIE S 026), and no other light has: the
+// ratios of a black body of 2856 K (illuminant A) follow from the CIE's tables of 1 nm. -pY is RADIANCE's,
+// whose V(lambda) is displaced (.3% by daylight), and bands of 20 nm make up to .3%.
+TEST(OutputColors, DaylightHasTheSameEffectOnAllReceptors) {
+  const Color daylight = spectrumOf20([](double w) { return kD65[static_cast<size_t>((780 - w) / 20)]; });
+  const double lux = writtenOf20({"-pY"}, daylight)[0];
+  for (const char* receptor : kReceptors) EXPECT_NEAR(writtenOf20({receptor}, daylight)[0], lux, .008 * lux);
+  const Color tungsten =
+      spectrumOf20([](double w) { return std::pow(560. / w, 5) / std::expm1(1.435e7 / (2848. * w)); });
+  const std::array<double, 5> expected = {.311, .807, 1.017, .573, .496};
+  for (size_t i = 0; i < kReceptors.size(); ++i)
+    EXPECT_NEAR(writtenOf20({kReceptors[i]}, tungsten)[0] / writtenOf20({"-pY"}, tungsten)[0], expected[i],
+                .015)
+        << kReceptors[i];
+}
+
+// Any number of bands, three channels and other limits have the same integrals for light without color;
+// melanopic EDI is .906 times -pM.
+TEST(OutputColors, ReceptorsInBandsAndChannels) {
+  const Color gray(1, 1, 1);
+  for (const char* receptor : kReceptors) {
+    const double white = written({receptor}, gray)[0];
+    for (const char* bands : {"4", "11", "24"})
+      EXPECT_NEAR(written({receptor, "-cs", bands}, gray)[0], white, 1e-4 * white);
+    EXPECT_NEAR(written({receptor, "-cs", "22", "-cw", "360", "800"}, gray)[0], white, 1e-4 * white);
+    EXPECT_LT(written({receptor, "-cs", "10", "-cw", "480", "680"}, gray)[0], .999 * white);
+    double channels = 0;
+    for (const Color& one : {Color(1, 0, 0), Color(0, 1, 0), Color(0, 0, 1)})
+      channels += written({receptor}, one)[0];
+    EXPECT_NEAR(channels, white, 1e-5 * white);
+  }
+  for (const char* bands : {"3", "20"})
+    for (const Color& color : {gray, kLamp, kFloor}) {
+      const double melanopic = written({"-pM", "-cs", bands}, color)[0];
+      EXPECT_NEAR(written({"-pEmel", "-cs", bands}, color)[0], .906 * melanopic, .005 * melanopic);
+    }
+  EXPECT_EQ(parse({"rtrace", "-pElc", "s"}).color.receptor, Receptor::lCone);
+}
+
 // A single band is outside the gamut. It is mixed with gray of the same luminance until the smallest channel
 // is 0.
 TEST(OutputColors, ColorsOutsideTheGamutKeepTheirLuminance) {
@@ -233,7 +279,9 @@ TEST(OutputColors, WhatCannotBeIsSaidAsInRtrace) {
             (std::vector<std::string>{"spectral range incompatible with color output"}));
   EXPECT_TRUE(parse({"rtrace", "-cw", "500", "600", "-pY", "s"}).messages.remarks.empty());
   EXPECT_EQ(faultOfOptions({"rtrace", "-pS", "-cw", "400", "700", "s"}),
-            "-pS and -pM of three channels need the whole spectrum (-cw 380 780, or -cs above 3)");
+            "-pS, -pM and -pE of three channels need the whole spectrum (-cw 380 780, or -cs above 3)");
+  EXPECT_EQ(faultOfOptions({"rtrace", "-pEx", "s"}),
+            "command line error at '-pEx': it is -pEsc, -pEmc, -pElc, -pErh or -pEmel; see -help");
   EXPECT_NO_THROW(parse({"rtrace", "-pS", "-cs", "4", "-cw", "400", "700", "s"}));
   EXPECT_EQ(faultOfOptions({"rsphere", "-pXYZ", "-ove", "s"}),
             "-oe needs -pRGB or -pY: standard errors exist for red, green and blue, or for luminance");
