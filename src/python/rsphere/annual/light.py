@@ -143,6 +143,8 @@ class Pass:
         """One estimate of the light of all patches, and of the reflected light of the sun. number: of the estimate."""
         s = self.settings
         sky = self.sky(number)
+        if number == 0:
+            self.first_sky = sky
         PROGRESS.advance()
         sun = self.direct_beside
         if self.by_sun:
@@ -228,7 +230,9 @@ class Light:
         parts = np.array([[self.lux_of(p, number) - base for p in states] for states in self.passes]) + self.direct
         base = base + self.direct_of(self.base) if self.base else 0
         if number == 0:
-            self.idle = [g.name for g, (up, lowered) in zip(self.groups, parts) if np.array_equal(up, lowered)] if self.groups else []
+            # By the light of the sky alone: reflected sun has more rays where blinds are lowered.
+            self.idle = [g.name for g, (up, lowered) in zip(self.groups, self.passes)
+                         if np.array_equal(up.first_sky, lowered.first_sky)] if self.groups else []
         if self.states is None and len(self.passes[0]) > 1:
             w = self.year.weights
             self.states = states_by_rule(self.direct[:, :, : len(w)], np.einsum("i,gsih->gsh", w, parts[:, :, : len(w)]), w)
