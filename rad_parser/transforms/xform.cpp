@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 
@@ -92,50 +93,25 @@ class ArgumentTransform {
   }
 
  private:
+  using Indices = std::initializer_list<size_t>;
+
   // Transforms the arguments according to their meaning. Returns whether numbers have changed.
   bool arguments() {
     switch (p_.type) {
-      case Type::source:
-        need(4);
-        turnVector(0);
-        return true;
+      case Type::source: return moved(4, {}, {}, {0});
       case Type::sphere:
-      case Type::bubble:
-        need(4);
-        movePoint(0);
-        scaleLength(3);
-        return true;
+      case Type::bubble: return moved(4, {0}, {3});
       case Type::polygon: polygon(); return true;
       case Type::cone:
-      case Type::cup:
-        need(8);
-        movePoint(0);
-        movePoint(3);
-        scaleLength(6);
-        scaleLength(7);
-        return true;
+      case Type::cup: return moved(8, {0, 3}, {6, 7});
       case Type::cylinder:
-      case Type::tube:
-        need(7);
-        movePoint(0);
-        movePoint(3);
-        scaleLength(6);
-        return true;
+      case Type::tube: return moved(7, {0, 3}, {6});
       case Type::ring:
-        need(8);
-        movePoint(0);
+        moved(8, {0}, {6, 7});
         turnVector(3, transform_.inverted ? -1 : 1);
-        scaleLength(6);
-        scaleLength(7);
         return true;
-      case Type::glow:
-        need(4);
-        scaleLength(3);
-        return true;
-      case Type::spotlight:
-        need(7);
-        turnVector(4);
-        return true;
+      case Type::glow: return moved(4, {}, {3});
+      case Type::spotlight: return moved(7, {}, {}, {4});
       case Type::dielectric:
         need(5);
         absorb(0);
@@ -204,6 +180,15 @@ class ArgumentTransform {
       case Type::alias: return false;
     }
     return false;
+  }
+
+  // Transforms `count` real arguments, of which these are the first of points, of lengths and of directions.
+  bool moved(size_t count, Indices points, Indices lengths, Indices directions = {}) {
+    need(count);
+    for (const size_t i : points) movePoint(i);
+    for (const size_t i : lengths) scaleLength(i);
+    for (const size_t i : directions) turnVector(i);
+    return true;
   }
 
   void polygon() {
