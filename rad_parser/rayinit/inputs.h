@@ -5,46 +5,25 @@ namespace rad::calc {
 
 // Indices in Point::inputs. Lengths and directions are in the coordinates of the primitive: its transform,
 // and that of the instance that contains it, have been inverted.
+//   Dx      unit ray direction
+//   Nx      unit surface normal, unperturbed and not turned towards the ray
+//   Px      intersection point
+//   T       distance from the ray's origin, through all transmissions
+//   Rdot    -D.N, within [-1,1]
+//   S       reciprocal of the scale of the transform to world space
+//   Tx      origin of world space
+//   Ix      unit x axis of world space; Jx, Kx: y and z axes
+//   Ts      length of this ray or, if it is part of a shadow ray, of the whole shadow ray
+//   Lu, Lv  texture coordinates of meshes; 0 for other surfaces
+//   NxP     perturbed surface normal, for materials with functions or data; RdotP: perturbed Rdot
+//   CrP     perturbed material colour
+//   DxA     direction to the target light source, or 0, for prism1 and prism2
+// clang-format off
 enum Input : uint32_t {
-  Dx,
-  Dy,
-  Dz,  // unit ray direction
-  Nx,
-  Ny,
-  Nz,  // unit surface normal, unperturbed and not turned towards the ray
-  Px,
-  Py,
-  Pz,    // intersection point
-  T,     // distance from the ray's origin, through all transmissions
-  Rdot,  // -D.N, within [-1,1]
-  S,     // reciprocal of the scale of the transform to world space
-  Tx,
-  Ty,
-  Tz,  // origin of world space
-  Ix,
-  Iy,
-  Iz,  // unit x axis of world space
-  Jx,
-  Jy,
-  Jz,  // unit y axis
-  Kx,
-  Ky,
-  Kz,  // unit z axis
-  Ts,  // length of this ray or, if it is part of a shadow ray, of the whole shadow ray
-  Lu,
-  Lv,  // texture coordinates of meshes; 0 for other surfaces
-  NxP,
-  NyP,
-  NzP,    // perturbed surface normal, for materials with functions or data
-  RdotP,  // perturbed Rdot
-  CrP,
-  CgP,
-  CbP,  // perturbed material colour
-  DxA,
-  DyA,
-  DzA,  // direction to the target light source, or 0, for prism1 and prism2
-  kInputs
+  Dx, Dy, Dz, Nx, Ny, Nz, Px, Py, Pz, T, Rdot, S, Tx, Ty, Tz, Ix, Iy, Iz, Jx, Jy, Jz, Kx, Ky, Kz, Ts, Lu, Lv,
+  NxP, NyP, NzP, RdotP, CrP, CgP, CbP, DxA, DyA, DzA, kInputs
 };
+// clang-format on
 
 // Request::available for three kinds of primitives: patterns and textures, materials with functions or data,
 // prisms.
