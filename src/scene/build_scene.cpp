@@ -257,9 +257,9 @@ class Builder {
       case Type::sphere:
       case Type::bubble: return readSphere(a, warn_);
       case Type::cone:
-      case Type::cup: return readCone(a, warn_);
+      case Type::cup:
       case Type::cylinder:
-      case Type::tube: return readCylinder(a, warn_);
+      case Type::tube: return readCone(a, warn_);
       case Type::ring: return readRing(a, warn_);
       case Type::source: return readSource(a);
       case Type::instance: return makeInstance(i, a);

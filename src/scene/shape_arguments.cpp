@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/angles.h"
+#include "base/constants.h"
 
 namespace rsphere {
 namespace {
@@ -79,27 +79,16 @@ std::optional<Shape> readSphere(const PrimitiveArguments& a, const Warn& warn) {
   return sphere;
 }
 
-std::optional<Shape> readCylinder(const PrimitiveArguments& a, const Warn& warn) {
-  a.needReals(7);
-  needTraceable(a);
-  const double radius = a.reals()[6];
-  Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, radius, radius, a.type() == Type::tube};
-  if (cone.radius0 < 0) {
-    a.warn(warn, "negative radius");
-    cone.radius0 = cone.radius1 = -cone.radius0;
-    cone.inward = !cone.inward;
-  }
-  return finishCone(a, warn, cone);
-}
-
 std::optional<Shape> readCone(const PrimitiveArguments& a, const Warn& warn) {
-  a.needReals(8);
+  const bool cylinder = a.type() == Type::cylinder || a.type() == Type::tube;
+  a.needReals(cylinder ? 7 : 8);
   needTraceable(a);
   const auto r = a.reals();
-  Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, r[6], r[7], a.type() == Type::cup};
+  const bool inward = a.type() == Type::cup || a.type() == Type::tube;
+  Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, r[6], r.back(), inward};
   if (cone.radius0 < 0 || cone.radius1 < 0) {
     if (cone.radius0 > 0 || cone.radius1 > 0) return illegalRadii(a, warn);
-    a.warn(warn, "negative radii");
+    a.warn(warn, cylinder ? "negative radius" : "negative radii");
     cone.radius0 = -cone.radius0;
     cone.radius1 = -cone.radius1;
     cone.inward = !cone.inward;

@@ -15,9 +15,9 @@ namespace rsphere {
 // vertices: of the description.
 std::optional<Polygon> readPolygon(const PrimitiveArguments& arguments, const rad::Warn& warn,
                                    std::span<const V3d> vertices);
-std::optional<Shape> readSphere(const PrimitiveArguments& arguments, const rad::Warn& warn);    // and bubble
-std::optional<Shape> readCone(const PrimitiveArguments& arguments, const rad::Warn& warn);      // and cup
-std::optional<Shape> readCylinder(const PrimitiveArguments& arguments, const rad::Warn& warn);  // and tube
+std::optional<Shape> readSphere(const PrimitiveArguments& arguments, const rad::Warn& warn);  // and bubble
+std::optional<Shape> readCone(const PrimitiveArguments& arguments,
+                              const rad::Warn& warn);  // cup, cylinder, tube
 std::optional<Shape> readRing(const PrimitiveArguments& arguments, const rad::Warn& warn);
 std::optional<Shape> readSource(const PrimitiveArguments& arguments);
 
