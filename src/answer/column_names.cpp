@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include "points/quantities.h"
@@ -18,51 +17,46 @@ struct LetterName {
   char letter;
   std::string_view name;
 };
-constexpr std::array kLetterNames = {
-    LetterName{'t', "trace"},
-    LetterName{'o', "origin"},
-    LetterName{'d', "direction"},
-    LetterName{'r', "reflect_contrib"},
-    LetterName{'R', "reflect_length"},
-    LetterName{'x', "unreflect_contrib"},
-    LetterName{'X', "unreflect_length"},
-    LetterName{'v', "value"},
-    LetterName{'e', "standard_error"},
-    LetterName{'V', "contribution"},
-    LetterName{'l', "length"},
-    LetterName{'L', "first_length"},
-    LetterName{'p', "point"},
-    LetterName{'n', "normal"},
-    LetterName{'N', "unperturbed_normal"},
-    LetterName{'s', "surface"},
-    LetterName{'w', "weight"},
-    LetterName{'W', "coefficient"},
-    LetterName{'m', "modifier"},
-    LetterName{'M', "material"},
-    LetterName{'~', "tilde"},
-    LetterName{'i', "record"},
-};
+constexpr LetterName kLetterNames[] = {{'t', "trace"},
+                                       {'o', "origin"},
+                                       {'d', "direction"},
+                                       {'r', "reflect_contrib"},
+                                       {'R', "reflect_length"},
+                                       {'x', "unreflect_contrib"},
+                                       {'X', "unreflect_length"},
+                                       {'v', "value"},
+                                       {'e', "standard_error"},
+                                       {'V', "contribution"},
+                                       {'l', "length"},
+                                       {'L', "first_length"},
+                                       {'p', "point"},
+                                       {'n', "normal"},
+                                       {'N', "unperturbed_normal"},
+                                       {'s', "surface"},
+                                       {'w', "weight"},
+                                       {'W', "coefficient"},
+                                       {'m', "modifier"},
+                                       {'M', "material"},
+                                       {'~', "tilde"},
+                                       {'i', "record"}};
 
 // Different names with -Su.
-constexpr std::array kGlareLetterNames = {
-    LetterName{'o', "eye"},
-    LetterName{'d', "gaze"},
-    LetterName{'u', "UGR"},
-    LetterName{'v', "illuminance"},
-    LetterName{'b', "background"},
-    LetterName{'g', "DGP"},
-    LetterName{'U', "UGR_error"},
-    LetterName{'V', "illuminance_error"},
-    LetterName{'B', "background_error"},
-    LetterName{'G', "DGP_error"},
-    LetterName{'n', "glare_sources"},
-    LetterName{'t', "threshold"},
-};
+constexpr LetterName kGlareLetterNames[] = {{'o', "eye"},
+                                            {'d', "gaze"},
+                                            {'u', "UGR"},
+                                            {'v', "illuminance"},
+                                            {'b', "background"},
+                                            {'g', "DGP"},
+                                            {'U', "UGR_error"},
+                                            {'V', "illuminance_error"},
+                                            {'B', "background_error"},
+                                            {'G', "DGP_error"},
+                                            {'n', "glare_sources"},
+                                            {'t', "threshold"}};
 // Names for the list of glare sources (-Su -Sd).
-constexpr std::array kSourceLetterNames = {
-    LetterName{'o', "eye"},         LetterName{'l', "luminance"},         LetterName{'L', "luminance_error"},
-    LetterName{'w', "solid_angle"}, LetterName{'W', "solid_angle_error"}, LetterName{'p', "position_index"},
-};
+constexpr LetterName kSourceLetterNames[] = {
+    {'o', "eye"},         {'l', "luminance"},         {'L', "luminance_error"},
+    {'w', "solid_angle"}, {'W', "solid_angle_error"}, {'p', "position_index"}};
 
 std::string_view nameIn(std::span<const LetterName> names, char letter) {
   for (const LetterName& known : names)

@@ -13,12 +13,6 @@
 namespace rsphere {
 namespace {
 
-std::string joined(std::span<const std::string> words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string percent(double x) {
   const double size = std::abs(100 * x);
   return fmt::format("{:.{}f}%", 100 * x, size >= 10 ? 1 : size >= 1 || size == 0 ? 2 : 3);
@@ -69,7 +63,7 @@ std::string tradeTable(std::span<const Figures> all) {
                         percent(f.bias), percent(f.biasError), f.estimated > 0 ? percent(f.estimated) : "-",
                         f.estimated > 0 ? fmt::format("{:.2f}", dishonesty(f)) : "-",
                         fmt::format("{}{}{}", f.limited ? "~" : "", f.biased ? "b" : "", honest ? "" : "!"),
-                        joined(f.words));
+                        fmt::join(f.words, " "));
   }
   text +=
       "* nothing is as fast and as accurate   95% sure: the rms error is below this   says: the error that "
@@ -89,7 +83,7 @@ std::string tradeCsv(std::span<const Figures> all, const Reference& reference) {
       "reference_error\n";
   for (const Figures& f : all)
     text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g}\n",
-                        joined(f.words), f.seconds, f.setupSeconds, f.directions, f.rms, f.rmsAtMost,
+                        fmt::join(f.words, " "), f.seconds, f.setupSeconds, f.directions, f.rms, f.rmsAtMost,
                         f.largest, f.bias, f.biasError, f.estimated, f.best ? 1 : 0, reference.error());
   return text;
 }
@@ -125,8 +119,9 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
   if (curve.size() > 1) plot.line(curve, kInk, kDashes);
   for (const Figures& f : all)
     if (isDrawn(f))
-      plot.mark(pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color,
-                fmt::format("{}: {} ms, {}", joined(f.words), milliseconds(f.seconds), percent(f.rms)));
+      plot.mark(
+          pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color,
+          fmt::format("{}: {} ms, {}", fmt::join(f.words, " "), milliseconds(f.seconds), percent(f.rms)));
   for (size_t k = 0; k < std::size(kSeries); ++k)
     if (std::any_of(all.begin(), all.end(), [&](const Figures& f) { return isDrawn(f) && seriesOf(f) == k; }))
       plot.legend(Plot::Key::disc, kSeries[k].color, std::string(kSeries[k].name));
@@ -156,15 +151,15 @@ PageTable settingsTable(std::span<const Figures> all, const TradeSubject& subjec
     if (dishonesty(f) >= kDishonest) remarks.emplace_back("own estimate too small");
     if (subject.repeatsOfLast > 0 && i + 1 == all.size())
       remarks.push_back(fmt::format("{} of {} repeats", subject.repeatsOfLast, subject.repeats));
-    table.rows.push_back(
-        {{chosen   ? recommendedText(subject)
-          : f.best ? "on the curve"
-                   : "",
-          joined(f.words), milliseconds(f.seconds), percent(f.rms), percent(f.rmsAtMost), percent(f.largest),
-          fmt::format("{} \u00b1 {}", percent(f.bias), percent(f.biasError)),
-          f.estimated > 0 ? percent(f.estimated) : "-", fmt::format("{:.0f}", f.directions),
-          fmt::format("{}", fmt::join(remarks, "; "))},
-         chosen});
+    table.rows.push_back({{chosen   ? recommendedText(subject)
+                           : f.best ? "on the curve"
+                                    : "",
+                           fmt::format("{}", fmt::join(f.words, " ")), milliseconds(f.seconds),
+                           percent(f.rms), percent(f.rmsAtMost), percent(f.largest),
+                           fmt::format("{} \u00b1 {}", percent(f.bias), percent(f.biasError)),
+                           f.estimated > 0 ? percent(f.estimated) : "-", fmt::format("{:.0f}", f.directions),
+                           fmt::format("{}", fmt::join(remarks, "; "))},
+                          chosen});
   }
   return table;
 }
