@@ -6,12 +6,9 @@
 #include "points/direction_sample.h"
 #include "silhouettes/silhouette_index.h"
 #include "targets/contrasts.h"
-#include "targets/curved_images.h"
+#include "targets/daylight_targets.h"
 #include "targets/glints.h"
-#include "targets/mirrored_openings.h"
-#include "targets/opening_targets.h"
 #include "targets/special_targets.h"
-#include "targets/sunlit_targets.h"
 
 namespace rsphere {
 

@@ -1,5 +1,3 @@
-#include "targets/curved_images.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "base/frame.h"
+#include "targets/daylight_targets.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/transport/transport_fixture.h"

@@ -1,5 +1,3 @@
-#include "targets/mirrored_openings.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "base/frame.h"
+#include "targets/daylight_targets.h"
 #include "tests/unit/support/scene_of.h"
 #include "tests/unit/support/sphere_setting.h"
 #include "tests/unit/transport/transport_fixture.h"
