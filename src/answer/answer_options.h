@@ -6,7 +6,7 @@
 #include "pictures/point_picture.h"
 #include "points/sphere_options.h"
 #include "rays/ray_options.h"
-#include "records/number_format.h"
+#include "records/number_text.h"
 #include "records/output_colors.h"
 #include "scene/sensors.h"
 

@@ -10,7 +10,7 @@
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "cli/word_file.h"
-#include "contrib/direction_functions.h"
+#include "contrib/bin_function.h"
 #include "estimate/ray_estimator.h"
 #include "points/quantities.h"
 #include "rad_parser/error.h"

@@ -9,7 +9,8 @@
 #include "rad_parser/calc/library.h"
 #include "rad_parser/rayinit/inputs.h"
 #include "rays/ray.h"
-#include "shade/shared_definitions.h"
+#include "shade/function_file.h"
+#include "sphere/direction_bins.h"
 
 namespace rsphere {
 
@@ -71,5 +72,11 @@ class BinFunctions {
   };
   std::vector<Entry> libraries_;
 };
+
+// Bins that are numbered by an expression of the direction (Dx, Dy, Dz, in the world), as with rcontrib's -b.
+// count: an expression for their number. Throws rad::Error if a definition or an expression is invalid, if
+// `bin` uses other properties of a ray, or if `count` is not a constant from 1 to 100,000.
+std::shared_ptr<const DirectionBins> directionBins(const std::string& bin, const std::string& count,
+                                                   const BinDefinitions& definitions);
 
 }  // namespace rsphere

@@ -14,8 +14,7 @@
 #include <utility>
 
 #include "image/codec.h"
-#include "image/png_picture.h"
-#include "image/radiance_picture.h"
+#include "image/picture_formats.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {

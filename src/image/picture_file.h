@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "image/raster.h"
+#include "image/picture_formats.h"
 
 namespace rsphere {
 

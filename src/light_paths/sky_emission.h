@@ -1,9 +1,25 @@
 #pragma once
 // Starts light paths on portals (portals.h), for all light that comes through them except direct sunlight.
-#include "light_paths/outdoor_light.h"
+#include <vector>
+
+#include "base/function_ref.h"
+#include "base/radiometry.h"
+#include "base/random.h"
 #include "openings/portals.h"
+#include "scene/shape.h"
 
 namespace rsphere {
+
+// The light beyond portals, found by paths from the eye: the radiance (W/sr/m2) along an indirect ray. Light
+// paths receive it as a function, because PathTracer, which computes it, depends on light paths. bounces:
+// number of diffuse bounces that have led to the ray.
+using OutdoorRadiance =
+    FunctionRef<Radiance(const V3d& origin, const V3d& direction, int bounces, Random& random)>;
+
+// OutdoorRadiance, separated by the number of further diffuse bounces: element i of the result is the light
+// after i bounces.
+using OutdoorParts = FunctionRef<void(const V3d& origin, const V3d& direction, int bounces, Random& random,
+                                      std::vector<Radiance>& parts)>;
 
 // Constant. Keeps a reference to the portals.
 class SkyEmission {

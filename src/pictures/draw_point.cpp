@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/colorimetry.h"
-#include "image/screen_color.h"
+#include "image/picture_formats.h"
 #include "pictures/pixel_tracer.h"
 #include "pictures/tuning.h"
 #include "rays/ray_functions.h"

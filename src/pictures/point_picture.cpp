@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/screen_color.h"
+#include "image/picture_formats.h"
 #include "pictures/tuning.h"
 #include "rad_parser/error.h"
 

@@ -5,8 +5,8 @@
 
 #include "base/radiometry.h"
 #include "base/spectral_sampling.h"
+#include "shade/function_file.h"
 #include "shade/scattering.h"
-#include "shade/shared_definitions.h"
 
 namespace rsphere {
 

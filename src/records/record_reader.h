@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "records/number_format.h"
+#include "records/number_text.h"
 
 namespace rsphere {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/color.h"
-#include "records/number_format.h"
+#include "records/number_text.h"
 
 namespace rsphere {
 

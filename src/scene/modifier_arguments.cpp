@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/angles.h"
 #include "base/constants.h"
 
 namespace rsphere {

@@ -22,8 +22,8 @@
 #include "rad_parser/transforms/xform.h"
 #include "scene/scene.h"
 #include "shade/bsdf.h"
+#include "shade/function_file.h"
 #include "shade/picture.h"
-#include "shade/shared_definitions.h"
 
 namespace rsphere {
 

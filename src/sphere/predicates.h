@@ -1,10 +1,4 @@
 #pragma once
-#include <Imath/ImathVec.h>
-
-#include <cstdint>
-
-#include "sphere/two_parts.h"
-
 // Decides correctly and consistently on which side of a triangle's circumcircle a direction lies.
 //
 // The geometric object. A stored triple p represents the point q = 2p / (1 + |p|^2). (1 + |p|^2) / 2 is the
@@ -18,9 +12,38 @@
 // Ties between coplanar points are broken by a symbolic perturbation. Of two points, the one with
 // lexicographically greater coordinates is perturbed by an infinitely larger amount. Points move first along
 // the radius, then (if all lie on a great circle) along x, y and z.
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+
 namespace rsphere {
 
 using Imath::V3d;
+
+// Sums and products of two doubles without error (Knuth's sum, Dekker's product): high is the rounded result,
+// low its rounding error. Requires that nothing overflows or underflows, and that the compiler does not
+// contract products and sums (CMakeLists.txt).
+struct TwoParts {
+  double high, low;
+};
+
+inline TwoParts sum(double a, double b) {
+  const double s = a + b, fromB = s - a;
+  return {s, (a - (s - fromB)) + (b - fromB)};
+}
+
+// Veltkamp's splitting into halves of 26 bits each, so that products of halves are exact.
+inline TwoParts halves(double a) {
+  const double c = 134217729.0 * a, high = c - (c - a);
+  return {high, a - high};
+}
+
+inline TwoParts product(double a, double b) {
+  const double p = a * b;
+  const auto [ah, al] = halves(a);
+  const auto [bh, bl] = halves(b);
+  return {p, al * bl - (((p - ah * bh) - al * bh) - ah * bl)};
+}
 
 // The largest | |p|^2 - 1 | of an accepted direction. It determines the error of the radius.
 inline constexpr double kUnitTolerance = 1e-14;

@@ -12,8 +12,7 @@
 #include "companions/compare/report.h"
 #include "companions/report/page.h"
 #include "companions/report/plot.h"
-#include "image/png_picture.h"
-#include "image/screen_color.h"
+#include "image/picture_formats.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {

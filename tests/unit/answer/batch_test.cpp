@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "answer/report_interval.h"
+#include "answer/picture_progress.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {

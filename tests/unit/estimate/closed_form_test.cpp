@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/angles.h"
 #include "base/constants.h"
 #include "estimate/estimator.h"
 #include "tests/unit/support/scene_of.h"

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <vector>
 
-#include "image/radiance_picture.h"
+#include "image/picture_formats.h"
 #include "rad_parser/error.h"
 
 namespace rsphere {
