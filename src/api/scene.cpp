@@ -12,7 +12,6 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <thread>
 
 #include "answer/answer_glare.h"
 #include "answer/answer_points.h"
@@ -98,6 +97,18 @@ struct PreparedScene {
   Warnings warnings;
   Transport transport;
 };
+
+// Calls work(prepared, warn), and passes on its warnings and those of the scene that it has set.
+template <typename Work>
+auto passingWarnings(const Options& options, const Work& work) {
+  Warnings warnings;
+  std::shared_ptr<PreparedScene> prepared;
+  const auto passWarnings = [&] {
+    if (prepared) prepared->warnings.passOn(options.warn);
+    warnings.passOn(options.warn);
+  };
+  return guarded(passWarnings, [&] { return work(prepared, warnings.collector()); });
+}
 
 rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options options) {
   options.contributors = scene.contributors;
@@ -211,7 +222,6 @@ class Call {
   void run(const std::function<bool()>& stop);
 
  private:
-  void runThreads();
   void work(unsigned worker);
   void answer(size_t index, unsigned worker, std::string& bytes);
   Record record(size_t index) const;
@@ -230,44 +240,35 @@ class Call {
 
 void Call::run(const std::function<bool()>& stop) {
   answerer_.stop = false;
-  if (!stop) {
-    runThreads();
-  } else {
-    std::mutex mutex;
-    std::condition_variable ended;
-    bool done = false;
-    std::exception_ptr fault;
-    std::thread starter([&] {
-      try {
-        runThreads();
-      } catch (...) {
-        fault = std::current_exception();
-      }
-      const std::lock_guard lock(mutex);
-      done = true;
-      ended.notify_one();
-    });
-    try {
-      std::unique_lock lock(mutex);
-      while (!ended.wait_for(lock, kAskToStop, [&] { return done; }))
-        if (!answerer_.stop) answerer_.stop = stop();
-    } catch (...) {  // thrown by stop()
-      answerer_.stop = true;
-      starter.join();
-      throw;
-    }
-    starter.join();
-    if (fault) std::rethrow_exception(fault);
-  }
-  if (fault_) std::rethrow_exception(fault_);
-}
-
-void Call::runThreads() {
   const unsigned threads = threadCount(answerer_.options.threads);
   claim_ = std::clamp<size_t>(records_ / (kClaims * threads), 1, kLargestClaim);
   const size_t claims = (records_ + claim_ - 1) / claim_;
-  runOnThreads(static_cast<unsigned>(std::min<size_t>(threads, claims)),
-               [this](unsigned worker) { work(worker); });
+  std::condition_variable changed;
+  unsigned ended = 0;
+  std::exception_ptr ofStop;
+  const auto watch = [&](unsigned started) {
+    std::unique_lock lock(mutex_);
+    while (!changed.wait_for(lock, kAskToStop, [&] { return ended == started; })) {
+      lock.unlock();
+      try {
+        if (!answerer_.stop) answerer_.stop = stop();
+      } catch (...) {
+        ofStop = std::current_exception();
+        answerer_.stop = true;
+      }
+      lock.lock();
+    }
+  };
+  const auto answerSome = [&](unsigned worker) {
+    work(worker);
+    const std::lock_guard lock(mutex_);
+    ++ended;
+    changed.notify_one();
+  };
+  runOnThreads(static_cast<unsigned>(std::min<size_t>(threads, claims)), answerSome, {},
+               stop ? watch : std::function<void(unsigned)>());
+  if (ofStop) std::rethrow_exception(ofStop);
+  if (fault_) std::rethrow_exception(fault_);
 }
 
 void Call::work(unsigned worker) {
@@ -530,17 +531,10 @@ void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Ans
 template <typename Answers>
 Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
                                       Records records, const Goals& goals) {
-  Warnings warnings;
-  std::shared_ptr<PreparedScene> prepared;
-  const auto passWarnings = [&] {
-    if (prepared) prepared->warnings.passOn(options.warn);
-    warnings.passOn(options.warn);
-  };
-  return guarded(passWarnings, [&] {
+  return passingWarnings(options, [&](std::shared_ptr<PreparedScene>& prepared, const rad::Warn& warn) {
     CommandOptions given = commandOptions(options, records);
     if (!goals.empty()) addGoals(given, goals);
     const rsphere::Options& parsed = given.options;
-    const rad::Warn warn = warnings.collector();
     for (const std::string& remark : parsed.messages.remarks) warn(remark);
     std::unique_ptr<Answerer> answerer = take(given);
     prepared = answerer->scene;
@@ -575,18 +569,12 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
 Contributions Scene::Implementation::contributions(std::span<const double> numbers,
                                                    const std::vector<std::string>& of,
                                                    const ContributionOptions& options) {
-  Warnings warnings;
-  std::shared_ptr<PreparedScene> prepared;
-  const auto passWarnings = [&] {
-    if (prepared) prepared->warnings.passOn(options.warn);
-    warnings.passOn(options.warn);
-  };
-  return guarded(passWarnings, [&] {
+  return passingWarnings(options, [&](std::shared_ptr<PreparedScene>& prepared, const rad::Warn& warn) {
     if (options.samples < 1)
       throw rad::Error(fmt::format("{} samples: expected at least 1", options.samples));
     std::vector<TrackedModifier> modifiers = trackedModifiers(of, options.bins);
     const CommandOptions given = commandOptions(options, Records::contributions);
-    for (const std::string& remark : given.options.messages.remarks) warnings.collector()(remark);
+    for (const std::string& remark : given.options.messages.remarks) warn(remark);
     prepared = prepare(given);
     {
       const std::lock_guard lock(mutex_);
@@ -607,7 +595,7 @@ Contributions Scene::Implementation::contributions(std::span<const double> numbe
     const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
     Call(answerer, numbers, keep).run(options.stop);
     for (const std::string& text : answerer.summary->warnings(given.options, prepared->transport.prepared()))
-      warnings.collector()(text);
+      warn(text);
     return result;
   });
 }
