@@ -63,8 +63,8 @@ Bands bandsOf(const SpectralCurve& curve, const SpectralSampling& sampling) {
 }
 
 V3d standardRgb(const V3d& xyz) {
-  static const Matrix rgbFromXyz = inverse(xyzFromRgb(kStandardPrimaries));
-  return intoGamut(product(rgbFromXyz, xyz), xyz.y);
+  static const M33d rgbFromXyz = xyzFromRgb(kStandardPrimaries).inverse();
+  return intoGamut(xyz * rgbFromXyz, xyz.y);
 }
 
 double photopicOf(const Color& color, const SpectralSampling* sampling) {

@@ -29,20 +29,13 @@ constexpr std::array<double, 5> kEdiOfEqualEnergy = {.9255, .9594, 1.0061, .9175
 constexpr double kLeastRange = 50;  // nm, between the limits of -cw
 
 // The matrix that adapts X, Y, Z from equal-energy white to the given white.
-Matrix adaptation(double xWhite, double yWhite) {
-  // The "sharp" transform and its inverse, with RADIANCE's digits. Their product differs from the unit matrix
-  // by 9e-5, an error that rtrace's colors share.
-  constexpr Matrix sharp = {{{1.2694, -.0988, -.1706}, {-.8364, 1.8006, .0357}, {.0297, -.0315, 1.0018}}};
-  constexpr Matrix sharpInverse = {{{.8156, .0472, .1372}, {.3791, .5769, .0440}, {-.0123, .0167, .9955}}};
+M33d adaptation(double xWhite, double yWhite) {
   constexpr double kSameWhite = 1e-4;
-  if (std::fabs(xWhite - 1 / 3.) <= kSameWhite && std::fabs(yWhite - 1 / 3.) <= kSameWhite)
-    return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const V3d from = product(sharp, V3d(1, 1, 1)), to = product(sharp, xyzOfChromaticity(xWhite, yWhite));
-  Matrix gains{};
-  gains[0][0] = to.x / from.x;
-  gains[1][1] = to.y / from.y;
-  gains[2][2] = to.z / from.z;
-  return product(sharpInverse, product(gains, sharp));
+  if (std::fabs(xWhite - 1 / 3.) <= kSameWhite && std::fabs(yWhite - 1 / 3.) <= kSameWhite) return {};
+  const V3d from = V3d(1, 1, 1) * kSharpFromXyz, to = xyzOfChromaticity(xWhite, yWhite) * kSharpFromXyz;
+  M33d gains;
+  for (int i = 0; i < 3; ++i) gains[i][i] = to[i] / from[i];
+  return kSharpFromXyz * gains * kXyzFromSharp;
 }
 
 bool primariesSpan(const Primaries& p) {
@@ -54,9 +47,8 @@ bool primariesSpan(const Primaries& p) {
   for (size_t i = 0; i < 8; i += 2)
     for (size_t j = i + 2; j < 8; j += 2)
       if (std::fabs(p[i] - p[j]) <= kSame && std::fabs(p[i + 1] - p[j + 1]) <= kSame) return false;
-  const Matrix columns = {
-      {{p[0], p[2], p[4]}, {p[1], p[3], p[5]}, {1 - p[0] - p[1], 1 - p[2] - p[3], 1 - p[4] - p[5]}}};
-  return std::fabs(determinant(columns)) > kSame;
+  const M33d rows(p[0], p[1], 1 - p[0] - p[1], p[2], p[3], 1 - p[2] - p[3], p[4], p[5], 1 - p[4] - p[5]);
+  return std::fabs(rows.determinant()) > kSame;
 }
 
 }  // namespace
@@ -76,9 +68,8 @@ OutputColors::OutputColors(const ColorOptions& options) : options_(options), sam
       break;
     case ColorSpace::primaries: {
       const auto& p = options.primaries;
-      const Matrix adapted = adaptation(p[6], p[7]);
-      matrix_ = product(inverse(xyzFromRgb(p)),
-                        sampling_ ? adapted : product(adapted, xyzFromRgb(kStandardPrimaries)));
+      const M33d adapted = adaptation(p[6], p[7]);
+      matrix_ = (sampling_ ? adapted : xyzFromRgb(kStandardPrimaries) * adapted) * xyzFromRgb(p).inverse();
       break;
     }
     case ColorSpace::photopic:
@@ -109,9 +100,8 @@ void OutputColors::write(RecordText& text, const Color& color, double scale) con
   switch (options_.space) {
     case ColorSpace::rgb:
     case ColorSpace::spectrum: return text.color(color);
-    case ColorSpace::xyz: return text.color(Color(product(matrix_, color.rgb()) * scale));
-    case ColorSpace::primaries:
-      return text.color(Color(intoGamut(product(matrix_, color.rgb()), brightness(color))));
+    case ColorSpace::xyz: return text.color(Color(color.rgb() * matrix_ * scale));
+    case ColorSpace::primaries: return text.color(Color(intoGamut(color.rgb() * matrix_, brightness(color))));
     case ColorSpace::photopic:
     case ColorSpace::scotopic:
     case ColorSpace::melanopic:
@@ -132,7 +122,7 @@ void OutputColors::writeBands(RecordText& text, const Bands& bands, double scale
     case ColorSpace::xyz: return text.color(Color(bandWeights_.tristimulus(values) * scale));
     case ColorSpace::primaries: {
       const V3d xyz = bandWeights_.tristimulus(values);
-      return text.color(Color(intoGamut(product(matrix_, xyz), xyz.y)));
+      return text.color(Color(intoGamut(xyz * matrix_, xyz.y)));
     }
     case ColorSpace::photopic: return text.number(scale * sum(sampling_->photopic));
     case ColorSpace::scotopic: return text.number(scale * sum(bandWeights_.scotopic));

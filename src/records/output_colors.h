@@ -82,7 +82,7 @@ class OutputColors {
   int count_ = 3;
   double scale_ = 1;
   Color weights_{0, 0, 0};    // of the channels, if a color has one value
-  Matrix matrix_{};           // if it has three: from RGB, or in a spectral run from X, Y and Z
+  M33d matrix_;               // if it has three: from RGB, or in a spectral run from X, Y and Z
   BandWeights bandWeights_;   // of a spectral run
   std::vector<double> seen_;  // -pE: of its bands
 };

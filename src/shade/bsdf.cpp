@@ -1,6 +1,5 @@
 #include "shade/bsdf.h"
 
-#include <Imath/ImathMatrix.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,38 +8,18 @@
 #include <optional>
 #include <span>
 
+#include "base/colorimetry.h"
 #include "base/constants.h"
+#include "base/primaries.h"
 
 namespace rsphere {
 namespace {
 
-using Imath::M33d;
 using rad::BsdfFile;
 
 constexpr double kBelowOne = 1 - 0x1p-53;
 
 // ---- colour
-
-// RADIANCE's primaries (chromaticities x, y); its white is equal energy, X = Y = Z.
-constexpr double kPrimaries[3][2] = {{.640, .330}, {.290, .600}, {.150, .060}};
-
-M33d rgbFromXyz() {
-  M33d primaries;  // for row vectors: rgb * primaries = xyz; rows are scaled so that (1, 1, 1) gives white
-  for (int i = 0; i < 3; ++i) {
-    primaries[i][0] = kPrimaries[i][0] / kPrimaries[i][1];
-    primaries[i][1] = 1;
-    primaries[i][2] = (1 - kPrimaries[i][0] - kPrimaries[i][1]) / kPrimaries[i][1];
-  }
-  const V3d amounts = V3d(1, 1, 1) * primaries.inverse();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) primaries[i][j] *= amounts[i];
-  return primaries.inverse();
-}
-
-// The colour space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), which distorts the channel-wise
-// minimum of several colours least. As in RADIANCE, this minimum is the diffuse part of coloured data.
-const M33d kXyzFromSharp(.8156, .3791, -.0123, .0472, .5769, .0167, .1372, .0440, .9955);
-const M33d kSharpFromXyz(1.2694, -.8364, .0297, -.0988, 1.8006, -.0315, -.1706, .0357, 1.0018);
 
 Tristimulus operator*(const Tristimulus& c, double f) { return {c.x * f, c.y * f, c.z * f}; }
 Tristimulus operator-(const Tristimulus& a, const Tristimulus& b) {
@@ -60,6 +39,8 @@ Tristimulus ofChromaticity(double y, double u, double v) {
 constexpr double kLeastDiffuse = .01 / kPi;
 constexpr double kMostDiffuseTree = 1.5 / kPi;
 
+// The channel-wise minimum of several colours. Sharpened sensors (kSharpFromXyz) distort it least. As in
+// RADIANCE, it is the diffuse part of coloured data.
 class Smallest {
  public:
   void add(const Tristimulus& c) {
@@ -288,19 +269,24 @@ struct Leaf {
   int depth = 0;
 };
 
+// The part of a cell that contains p, a bit for each of `rank` dimensions. p becomes relative to that part.
+uint32_t descend(Coordinates& p, int rank) {
+  uint32_t part = 0;
+  for (int i = 0; i < rank; ++i) {
+    p[i] *= 2;
+    if (p[i] >= 1) {
+      part |= 1U << i;
+      p[i] -= 1;
+    }
+  }
+  return part;
+}
+
 // The leaf that contains a point. p: as many coordinates in [0, 1) as the rank of the tree.
 Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
   Leaf leaf;
   while (const uint32_t children = tree.nodes[leaf.node].children) {
-    uint32_t child = 0;
-    for (int i = 0; i < rank; ++i) {
-      p[i] *= 2;
-      if (p[i] >= 1) {
-        child |= 1U << i;
-        p[i] -= 1;
-      }
-    }
-    leaf.node = children + child;
+    leaf.node = children + descend(p, rank);
     ++leaf.depth;
   }
   return leaf;
@@ -339,7 +325,7 @@ class Means {
     double x = 0, y = 0, width = 1;
     int depth = 0;
     while (const uint32_t children = tree_->nodes[node].children) {
-      const uint32_t quadrant = descend(given);
+      const uint32_t quadrant = descend(given, given_);
       ++depth;
       std::array<double, 4> masses{};
       for (uint32_t drawn = 0; drawn < 4; ++drawn)
@@ -371,18 +357,6 @@ class Means {
     return drawFirst_ ? drawn | given << 2 : given | drawn << given_;
   }
 
-  uint32_t descend(Coordinates& p) const {
-    uint32_t quadrant = 0;
-    for (int i = 0; i < given_; ++i) {
-      p[i] *= 2;
-      if (p[i] >= 1) {
-        quadrant |= 1U << i;
-        p[i] -= 1;
-      }
-    }
-    return quadrant;
-  }
-
   // Selects the second half with probability proportional to its mass. Rescales u, which is then uniform
   // again.
   static bool choose(double first, double second, double& u) {
@@ -402,7 +376,7 @@ class Means {
   Mean mean(Reference r, Coordinates given) const {
     if (r.node == 0) return {r.value, r.depth, r.depth};
     const Node* n = &nodes_[r.node];
-    while (n->children != 0) n = &nodes_[n->children + descend(given)];
+    while (n->children != 0) n = &nodes_[n->children + descend(given, given_)];
     return {n->mean, n->finest, n->coarsest};
   }
 
@@ -612,14 +586,8 @@ class TreeScattering final : public DirectedScattering {
 
 Color rgbOf(const Tristimulus& c) {
   if (c.x == c.y && c.z == c.y) return Color(c.y, c.y, c.y);
-  static const M33d matrix = rgbFromXyz();
-  const V3d v = V3d(c.x, c.y, c.z) * matrix;
-  const double least = std::min({v.x, v.y, v.z});
-  if (least >= 0) return Color(v.x, v.y, v.z);
-  if (!(c.y > 0)) return Color(0, 0, 0);
-  const double kept = c.y / (c.y - least);
-  const auto mixed = [&](double channel) { return std::max(0., c.y + kept * (channel - c.y)); };
-  return Color(mixed(v.x), mixed(v.y), mixed(v.z));
+  const V3d rgb = standardRgb(V3d(c.x, c.y, c.z));
+  return Color(std::max(0., rgb.x), std::max(0., rgb.y), std::max(0., rgb.z));
 }
 
 BsdfData::BsdfData(const BsdfFile& file, std::string_view name, const rad::Warn& warn) {

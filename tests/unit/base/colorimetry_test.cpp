@@ -189,9 +189,9 @@ TEST(Colorimetry, SpectraOfBandsAreTheirOwnBands) {
 }
 
 TEST(Colorimetry, RedGreenAndBlueReturn) {
-  const Matrix toXyz = xyzFromRgb(kStandardPrimaries);
+  const M33d toXyz = xyzFromRgb(kStandardPrimaries);
   for (const V3d& rgb : {V3d(1, 1, 1), V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1), V3d(.2, .9, .4)}) {
-    const V3d xyz = product(toXyz, rgb), back = standardRgb(xyz);
+    const V3d xyz = rgb * toXyz, back = standardRgb(xyz);
     EXPECT_NEAR(xyz.y, kRedWeight * rgb.x + kGreenWeight * rgb.y + kBlueWeight * rgb.z, 1e-8);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(back[i], rgb[i], 1e-14);
   }
@@ -211,14 +211,14 @@ TEST(Colorimetry, ColorsOutsideTheGamutKeepTheirLuminance) {
 TEST(Colorimetry, MetamersHaveOneColor) {
   const auto xyzOf = [](const std::array<double, 5>& v) { return tristimulus({v, 700, 400}); };
   // Solves for three of the bands such that the change of the other two is compensated.
-  Matrix columns{};
+  M33d rows;
   for (size_t i = 0; i < 3; ++i) {
     std::array<double, 5> unit{};
     unit[2 * i] = 1;
     const V3d xyz = xyzOf(unit);
-    for (int row = 0; row < 3; ++row) columns[static_cast<size_t>(row)][i] = xyz[row];
+    for (int column = 0; column < 3; ++column) rows[static_cast<int>(i)][column] = xyz[column];
   }
-  const V3d change = product(inverse(columns), xyzOf({0, .01, 0, -.02, 0}));
+  const V3d change = xyzOf({0, .01, 0, -.02, 0}) * rows.inverse();
   const std::array<double, 5> a{.5, .5, .5, .5, .5};
   const std::array<double, 5> b{.5 - change.x, .51, .5 - change.y, .48, .5 - change.z};
   const V3d one = standardRgb(xyzOf(a)), other = standardRgb(xyzOf(b));
