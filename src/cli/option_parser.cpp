@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/overloaded.h"
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "cli/word_file.h"
@@ -81,14 +82,12 @@ class Words {
   size_t at_ = 0, expanded_ = 0;
 };
 
-bool startsWith(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
-
 // Whether a switch has this state after its name. The letters that rtrace's switches take are not states of
 // switches that begin with -S: they would turn the misspelt option -SN into a switch.
 bool hasState(const OptionEntry& entry, std::string_view state) {
   const bool letter = !state.empty() && std::isalpha(static_cast<unsigned char>(state[0])) != 0;
   return std::holds_alternative<SwitchValue>(entry.value) && switched(state, false) &&
-         !(letter && startsWith(entry.name, "-S"));
+         !(letter && entry.name.starts_with("-S"));
 }
 
 // The option named by a word: the whole word or, if there is none, a switch with its state or a name followed
@@ -99,11 +98,11 @@ const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_vi
   for (const OptionEntry& entry : table)
     if (!entry.glued && entry.name == word && isTaken(entry)) return &entry;
   for (const OptionEntry& entry : table)
-    if (startsWith(word, entry.name) && hasState(entry, word.substr(entry.name.size())) && isTaken(entry))
+    if (word.starts_with(entry.name) && hasState(entry, word.substr(entry.name.size())) && isTaken(entry))
       return &entry;
   const OptionEntry* found = nullptr;
   for (const OptionEntry& entry : table)
-    if ((entry.glued || entry.alsoGlued) && startsWith(word, entry.name) && isTaken(entry) &&
+    if ((entry.glued || entry.alsoGlued) && word.starts_with(entry.name) && isTaken(entry) &&
         (found == nullptr || found->name.size() < entry.name.size()))
       found = &entry;
   return found;
@@ -178,7 +177,7 @@ bool isMissing(const OptionEntry& entry, const std::string& word) {
 std::string colorOutputs() {
   std::string names;
   for (const OptionEntry& entry : optionTable())
-    if (startsWith(entry.name, "-p") && arity(entry) == 0)
+    if (entry.name.starts_with("-p") && arity(entry) == 0)
       names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);
   return fmt::format("; the colors of the output are {}; -pY is luminance, or illuminance in lux", names);
 }
@@ -191,9 +190,9 @@ const OptionEntry* findOption(const Companion& companion, std::string_view word)
 
 // The reason why a word that begins with a hyphen is not an option.
 std::string whyUnknown(const Companion& companion, std::string_view word) {
-  if (startsWith(word, "--") && findOption(companion, word.substr(1)) != nullptr)
+  if (word.starts_with("--") && findOption(companion, word.substr(1)) != nullptr)
     return fmt::format("options begin with one hyphen: {}", word.substr(1));
-  if (startsWith(word, "-p") && findOption(companion, "-pY") != nullptr)
+  if (word.starts_with("-p") && findOption(companion, "-pY") != nullptr)
     return "there is no such option" + colorOutputs();
   rad::NearestName nearest(word);
   for (const OptionEntry& entry : companion.own) nearest.consider(entry.name);
@@ -207,27 +206,17 @@ void apply(const Use& use, Options& options) {
   const OptionEntry& entry = *use.entry;
   if (entry.support == Support::refused)
     throw rad::Error(fmt::format("option '{}' is not supported: {}", entry.name, entry.reason));
-  struct Set {
-    const Use& use;
-    const OptionEntry& entry;
-    Options& options;
-    void operator()(std::monostate) const {}
-    void operator()(SwitchValue value) const { value(options) = switched(use.rest, value(options)).value(); }
-    void operator()(IntegerValue value) const {
-      const int64_t n = integerWord(entry, use.words[0]);
-      value(options) = static_cast<int>(n);
-    }
-    void operator()(CountValue value) const { value(options) = integerWord(entry, use.words[0]); }
-    void operator()(RealValue value) const { value(options) = realWord(entry, use.words[0]); }
-    void operator()(ColorValue value) const {
-      value(options) =
-          Color(realWord(entry, use.words[0]), realWord(entry, use.words[1]), realWord(entry, use.words[2]));
-    }
-    void operator()(WordValue value) const { value(options) = use.words[0]; }
-    void operator()(WordsValue value) const { value(options).push_back(use.words[0]); }
-    void operator()(Custom custom) const { custom.set(options, entry, use.words, use.rest); }
-  };
-  std::visit(Set{use, entry, options}, entry.value);
+  const auto real = [&](size_t i) { return realWord(entry, use.words[i]); };
+  match(
+      entry.value, [](std::monostate) {},
+      [&](SwitchValue value) { value(options) = switched(use.rest, value(options)).value(); },
+      [&](IntegerValue value) { value(options) = static_cast<int>(integerWord(entry, use.words[0])); },
+      [&](CountValue value) { value(options) = integerWord(entry, use.words[0]); },
+      [&](RealValue value) { value(options) = real(0); },
+      [&](ColorValue value) { value(options) = Color(real(0), real(1), real(2)); },
+      [&](WordValue value) { value(options) = use.words[0]; },
+      [&](WordsValue value) { value(options).push_back(use.words[0]); },
+      [&](const Custom& custom) { custom.set(options, entry, use.words, use.rest); });
 }
 
 // Separates the letters for the record from those for its tree, in ray mode: the former precede the first t
@@ -515,7 +504,7 @@ Use takeUse(Words& words, const Companion& companion, const std::string& word) {
 Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
   Given given;
   given.sphereMode = sphereMode;
-  for (words.expand(); !words.atEnd() && startsWith(words.word(), "-"); words.expand()) {
+  for (words.expand(); !words.atEnd() && words.word().starts_with("-"); words.expand()) {
     const std::string word = words.take();
     if (word == "-version" || word == "--version") given.request = Request::version;
     if (word == "-defaults") given.request = Request::defaults;
@@ -533,7 +522,7 @@ Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
 std::vector<std::string> takeScene(Words& words) {
   std::vector<std::string> scene;
   for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
-    if (startsWith(words.word(), "-"))
+    if (words.word().starts_with("-"))
       commandLineError(words.before()[first],
                        fmt::format("the scene begins here, but '{}' follows; options come before the scene",
                                    words.word()));
