@@ -244,7 +244,7 @@ class CodeWriter {
 
   std::deque<FrameGraph> frames_;
   std::shared_ptr<Program> program_ = std::make_shared<Program>();
-  std::unordered_map<Id, std::pair<uint32_t, uint32_t>> globals_;  // of the first frame: cell and register
+  std::unordered_map<Id, std::pair<uint32_t, uint32_t>> globals_;  // cells and registers of the first frame
 
   // Of the frame being written:
   const Graph* graph_ = nullptr;

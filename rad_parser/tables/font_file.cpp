@@ -10,8 +10,7 @@
 namespace rad {
 
 bool Glyph::covers(double x, double y) const {
-  // The bounding box is tested, and edges are selected, with the middle of the grid cell, because it contains
-  // no vertex.
+  // Which edges count is decided at the middle of the point's grid cell, because no vertex lies there.
   const double column = std::floor(x) + .5, row = std::floor(y) + .5;
   if (!(column > left && column < right && row > bottom && row < top)) return false;
   bool inside = false;

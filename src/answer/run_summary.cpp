@@ -26,7 +26,7 @@ bool isFarAway(const V3d& point, const Box3d& scene) {
   return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
 }
 
-// What the records of a run are.
+// The word for the records of a run, for messages.
 std::string_view placesOf(const AnswerOptions& options) {
   if (options.sphereMode) return options.sphere.glare.wanted ? "eyes" : "points";
   return options.irradiance == IrradianceAt::point ? "sensors" : "rays";

@@ -86,7 +86,7 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(
     for (size_t at = 0; at < mean.size(); ++at)
       answer.variances[at] -= kOfSquares * kInHalf * mean[at] * mean[at];
   }
-  // Equal values leave a rounding error.
+  // Rounding may leave a variance below 0 if all values are equal.
   for (double& variance : answer.variances) variance = std::max(0., variance);
   return answer;
 }

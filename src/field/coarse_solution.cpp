@@ -28,7 +28,7 @@ static_assert(kMostComputed >= 3);
 // more: the light of the last two bounces that are known.
 double geometricRest(double before, double more, int further) {
   constexpr double kLargest = .99;  // even in a closed room of the whitest paint
-  // Where slopes are noisy, differences of either sign occur, which must not add up to more or less light.
+  // Noisy slopes may make the light of a bounce negative, which is no series that can be continued.
   if (!(more * before > 0)) return 0;
   const double ratio = std::min(more / before, kLargest);
   return more * ratio * (1 - std::pow(ratio, further)) / (1 - ratio);

@@ -94,8 +94,8 @@ inline V3d acrossTube(const TubeLight& tube, const V3d& along) {
   return tube.half.cross(along).normalized() * (tube.area / (4 * tube.half.length()));
 }
 
-// Whether all rays that are aimed at the shape hit it. An importance goal may have any shape; a shape for
-// which this is false is only hit by chance.
+// Whether rays that are aimed at the shape hit it. Importance goals may have other shapes, which are hit only
+// by chance.
 bool canBeAimedAt(ShapeRef shape, const Scene& scene);
 
 }  // namespace rsphere

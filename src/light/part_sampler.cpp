@@ -10,7 +10,6 @@
 #include "light/sources.h"
 #include "light/spherical_triangle.h"
 #include "light/tuning.h"
-#include "shade/spot_cone.h"
 
 namespace rsphere {
 namespace {

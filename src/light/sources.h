@@ -6,7 +6,6 @@
 
 #include "base/random.h"
 #include "light/light_source.h"
-#include "shade/spot_cone.h"
 #include "shade/surface_functions.h"
 
 namespace rsphere {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/color.h"
+#include "base/constants.h"
 #include "scene/ids.h"
 
 namespace rsphere {
@@ -157,6 +158,11 @@ struct Spotlight {
   V3d aim{0, 0, 1};        // unit
   double focalLength = 0;  // length of the aim vector as given: the focus lies this far behind the surface
 };
+
+// Whether a point is outside a spotlight's cone. towards: from the point to the light (unit).
+inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
+  return spot.solidAngle < 2 * kPi * (1 + spot.aim.dot(towards));
+}
 
 using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,
                               WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,

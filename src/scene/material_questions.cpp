@@ -6,6 +6,14 @@
 
 namespace rsphere {
 
+// The materials of light sources, and all others. A new type belongs to one of these.
+template <class M>
+concept SourceMaterial = OneOf<M, Light, Illum, Glow, Spotlight>;
+template <class M>
+concept DarkMaterial =
+    OneOf<M, Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
+          BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist>;
+
 bool isTransparent(const Material& material) {
   return match(
       material, [](const OneOf<Trans, Dielectric, Interface, Glass, Mist> auto&) { return true; },
@@ -15,7 +23,7 @@ bool isTransparent(const Material& material) {
       [](const OneOf<Opaque, Ashikhmin, FunctionScatterer, Mirror, Prism, Antimatter> auto&) {
         return false;
       },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
+      [](const SourceMaterial auto&) { return false; });
 }
 
 Sides stopsShadows(const Material& material) {
@@ -43,7 +51,7 @@ bool isBoundary(const Material& material) {
       material, [](const OneOf<Dielectric, Interface> auto&) { return true; },
       [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                      BsdfMaterial, Glass, Mirror, Prism, Antimatter, Mist> auto&) { return false; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
+      [](const SourceMaterial auto&) { return false; });
 }
 
 bool enclosesVolume(const Material& material) {
@@ -51,7 +59,7 @@ bool enclosesVolume(const Material& material) {
       material, [](const OneOf<Antimatter, Mist> auto&) { return true; },
       [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                      BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism> auto&) { return false; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return false; });
+      [](const SourceMaterial auto&) { return false; });
 }
 
 std::optional<Alternate> alternateOf(const Material& material) {
@@ -67,11 +75,8 @@ std::optional<Alternate> alternateOf(const Material& material) {
 std::optional<Radiance> sourceRadiance(const Material& material) {
   using Answer = std::optional<Radiance>;
   return match(
-      material,
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto& m) -> Answer { return Radiance(m.radiance); },
-      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
-          -> Answer { return {}; });
+      material, [](const SourceMaterial auto& m) -> Answer { return Radiance(m.radiance); },
+      [](const DarkMaterial auto&) -> Answer { return {}; });
 }
 
 bool isLightSource(const Material& material) { return sourceRadiance(material).has_value(); }
@@ -81,20 +86,14 @@ bool isSampled(const Material& material) {
   return match(
       material, [&](const OneOf<Light, Illum, Spotlight> auto& m) { return emits(m); },
       [&](const Glow& m) { return emits(m) && !(m.reach <= 0); },
-      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-        return false;
-      });
+      [](const DarkMaterial auto&) { return false; });
 }
 
 double reachOf(const Material& material) {
   return match(
       material, [](const Glow& m) { return m.reach; },
       [](const OneOf<Light, Illum, Spotlight> auto&) { return 0.; },
-      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-        return 0.;
-      });
+      [](const DarkMaterial auto&) { return 0.; });
 }
 
 Cover coverOf(const Material& material) {
@@ -104,10 +103,7 @@ Cover coverOf(const Material& material) {
         return m.alternate.kind == Alternate::Kind::modifier ? Cover::hides : Cover::passes;
       },
       [](const OneOf<Light, Spotlight> auto&) { return Cover::hides; },
-      [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
-                     BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&) {
-        return Cover::hides;
-      });
+      [](const DarkMaterial auto&) { return Cover::hides; });
 }
 
 int imagesMadeBy(const Material& material) {
@@ -115,7 +111,7 @@ int imagesMadeBy(const Material& material) {
       material, [](const Mirror&) { return 1; }, [](const Prism& m) { return m.images; },
       [](const OneOf<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                      BsdfMaterial, Dielectric, Interface, Glass, Antimatter, Mist> auto&) { return 0; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) { return 0; });
+      [](const SourceMaterial auto&) { return 0; });
 }
 
 std::optional<MirrorReflection> mirrorReflection(const Material& material) {
@@ -139,7 +135,7 @@ std::optional<MirrorReflection> mirrorReflection(const Material& material) {
       [](const OneOf<Dielectric, Interface> auto&) -> Answer { return MirrorReflection{.boundaries = 1}; },
       [](const OneOf<Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction, BsdfMaterial,
                      Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
+      [](const SourceMaterial auto&) -> Answer { return {}; });
 }
 
 std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
@@ -152,7 +148,7 @@ std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
       [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                      BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
           -> Answer { return {}; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
+      [](const SourceMaterial auto&) -> Answer { return {}; });
 }
 
 namespace {
@@ -205,7 +201,7 @@ std::optional<Excess> excessOf(const Material& material) {
       },
       [](const Mirror& m) -> Answer { return firstAbove({reflectance(m.reflectance)}); },
       [](const OneOf<Prism, Antimatter, Mist> auto&) -> Answer { return {}; },
-      [](const OneOf<Light, Illum, Glow, Spotlight> auto&) -> Answer { return {}; });
+      [](const SourceMaterial auto&) -> Answer { return {}; });
 }
 
 }  // namespace rsphere

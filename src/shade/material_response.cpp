@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "shade/spot_cone.h"
 
 namespace rsphere {
 namespace {
