@@ -10,57 +10,10 @@
 #include "rad_parser/error.h"
 
 namespace rsphere {
-namespace {
 
-// Contains no < and &, because HTML and XML would need different escapes.
-constexpr std::string_view kStyle = R"(
-:root { color-scheme: light dark; --paper: #ffffff; --ink: #1d2229; --soft: #58616d; --line: #d9dee4;
-  --tint: #eef5fc; --code: #f4f6f8; --good: #1a7f37; --open: #9a6700; --bad: #c62828; --mark: #c2185b; }
-@media (prefers-color-scheme: dark) { :root { --paper: #15181c; --ink: #e4e8ed; --soft: #9aa4b0;
-  --line: #353c45; --tint: #1b2c3f; --code: #1e2329; --good: #4cc26b; --open: #d9a62e; --bad: #ff6b63;
-  --mark: #ff5c97; } }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 3rem; background: var(--paper);
-  color: var(--ink); font: 16px/1.5 system-ui, sans-serif; }
-h1 { margin: 0 0 1rem; font-size: 1.7rem; line-height: 1.25; overflow-wrap: anywhere; }
-h2 { margin: 2rem 0 .6rem; font-size: 1.15rem; }
-p { margin: .5rem 0; }
-.note { color: var(--soft); font-size: .9rem; max-width: 50rem; }
-.above { margin: 0; color: var(--soft); font-size: .9rem; }
-.banner { padding: .7rem 1rem; border-left: .35rem solid; background: var(--code); font-weight: 600; }
-.good { border-color: var(--good); } .open { border-color: var(--open); } .bad { border-color: var(--bad); }
-pre { margin: .5rem 0; padding: .8rem 1rem; overflow-x: auto; background: var(--code);
-  border: 1px solid var(--line); border-radius: .3rem; font: .85rem/1.5 ui-monospace, monospace; }
-pre.command { white-space: pre-wrap; overflow-wrap: anywhere; border-color: var(--soft); }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .87rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .3rem .5rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
-th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; }
-th.text, td.text { text-align: left; }
-td.text { white-space: normal; }
-td.text span { white-space: nowrap; }
-tr.chosen td { background: var(--tint); font-weight: 600; }
-tr.chosen td:first-child { color: var(--mark); }
-table.facts td { white-space: normal; overflow-wrap: anywhere; text-align: left; vertical-align: top; }
-table.facts td:first-child { color: var(--soft); white-space: nowrap; }
-summary { cursor: pointer; color: var(--soft); }
-figure { margin: 1rem 0; }
-figcaption { color: var(--soft); font-size: .87rem; }
-.plot { overflow-x: auto; }
-.plot svg { display: block; width: 100%; min-width: 34rem; max-width: 56rem; }
-.plot text { fill: var(--ink); }
-.plot .paper { fill: var(--paper); }
-.plot .grid { stroke: var(--line); }
-.plot .frame { stroke: var(--soft); }
-.plot .ink { stroke: var(--ink); }
-.pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
-.pictures figure { flex: 1 1 16rem; max-width: 30rem; margin: 0; }
-.pictures img { display: block; width: 100%; border: 1px solid var(--line); image-rendering: pixelated; }
-@media print { body { max-width: none; padding: 0; font-size: 11px; } h2 { break-after: avoid; }
-  figure, tr, pre { break-inside: avoid; } pre { white-space: pre-wrap; } .wide, .plot { overflow: visible; }
-  .plot svg { min-width: 0; max-width: 17cm; } table { font-size: 8.5px; } th, td { padding: 1px 4px; }
-  * { print-color-adjust: exact; } }
-)";
+extern const std::string_view kPageStyle;  // page.css
+
+namespace {
 
 // Text that may be broken before an option, but neither within an option nor between an option and its value.
 std::string withOptionsWhole(std::string_view text) {
@@ -148,7 +101,7 @@ std::string Page::html() const {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<p class=\"above\">{2}</p>\n<h1>{0}</h1>\n"
       "{3}</body>\n</html>\n",
-      escaped(title_), kStyle, escaped(above_), body_);
+      escaped(title_), kPageStyle, escaped(above_), body_);
 }
 
 std::string dateAndTime(std::time_t when) {
