@@ -63,4 +63,15 @@ class OpenFile {
   struct stat begin_ {};
 };
 
+// Writes all bytes. Returns false, with errno, if that fails.
+inline bool writeAll(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes.remove_prefix(static_cast<size_t>(n));
+  }
+  return true;
+}
+
 }  // namespace rad

@@ -8,23 +8,13 @@
 #include <cstring>
 #include <limits>
 
+#include "rad_parser/open_file.h"
 #include "records/record_writer.h"
 
 namespace rsphere {
 namespace {
 
 constexpr int kStandardError = 2;
-
-// Returns whether all of the text was written.
-bool writeAll(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(fd, text.data(), text.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    text.remove_prefix(static_cast<size_t>(n));
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -42,8 +32,8 @@ void Messages::use(const MessageOptions& options, std::string_view command) {
           rad::Status::system);
     if (fd_ != kStandardError) close(fd_);
     fd_ = fd;
-    writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(),
-                              rad::printable(command, std::numeric_limits<size_t>::max())));
+    rad::writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(),
+                                   rad::printable(command, std::numeric_limits<size_t>::max())));
   }
   for (const std::string& remark : options.remarks) warning(remark);
 }
@@ -68,7 +58,7 @@ void Messages::report(std::string_view text) const { write("", text); }
 void Messages::write(std::string_view kind, std::string_view text) const {
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
   const std::string line = fmt::format("{}: {}{}\n", program_, kind, rad::messageLine(text));
-  if (!writeAll(fd_, line) && fd_ != kStandardError) writeAll(kStandardError, line);
+  if (!rad::writeAll(fd_, line) && fd_ != kStandardError) rad::writeAll(kStandardError, line);
 }
 
 }  // namespace rsphere

@@ -16,6 +16,7 @@
 #include "image/codec.h"
 #include "image/picture_formats.h"
 #include "rad_parser/error.h"
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 namespace {
@@ -84,16 +85,6 @@ std::string realPath(const std::string& name) {
   return path ? path.get() : name;
 }
 
-// Returns false, with errno, if a write fails.
-bool writeAll(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno != EINTR) return false;
-    if (n > 0) bytes.remove_prefix(static_cast<size_t>(n));
-  }
-  return true;
-}
-
 }  // namespace
 
 PictureFormat pictureFormat(const std::string& name) {
@@ -142,12 +133,12 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   }
   if (!target_.empty()) {
     NewFile file(target_);
-    if (!writeAll(file.descriptor(), bytes) || !file.replaceTarget())
+    if (!rad::writeAll(file.descriptor(), bytes) || !file.replaceTarget())
       cannotWrite(name_, std::strerror(errno));
     return;
   }
   const int fd = open(name_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  const bool written = writeAll(fd, bytes);
+  const bool written = rad::writeAll(fd, bytes);
   const int why = errno;
   // The file is emptied, because some readers would accept an incomplete picture. Emptying fails for devices,
   // where it is not needed.

@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 #include <cstring>
 
 #include "rad_parser/error.h"
+#include "rad_parser/open_file.h"
 
 namespace rsphere {
 namespace {
@@ -37,16 +37,11 @@ void becomeProgram(char* const* words, int in, int out, int errors) {
 
 MemoryFile::MemoryFile(std::string_view bytes) : fd_(memfd_create("rsphere", MFD_CLOEXEC)) {
   if (fd_ < 0) systemError("cannot create a file in memory");
-  while (!bytes.empty()) {
-    const ssize_t n = write(fd_, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      const int error = errno;
-      close(fd_);
-      errno = error;
-      systemError("cannot write to a file in memory");
-    }
-    bytes.remove_prefix(static_cast<size_t>(n));
+  if (!rad::writeAll(fd_, bytes)) {
+    const int error = errno;
+    close(fd_);
+    errno = error;
+    systemError("cannot write to a file in memory");
   }
   lseek(fd_, 0, SEEK_SET);
 }
@@ -55,18 +50,7 @@ MemoryFile::~MemoryFile() { close(fd_); }
 
 std::string MemoryFile::path() const { return fmt::format("/proc/{}/fd/{}", getpid(), fd_); }
 
-std::string MemoryFile::contents() const {
-  struct stat status {};
-  if (fstat(fd_, &status) != 0) systemError("cannot read a file in memory");
-  std::string bytes(static_cast<size_t>(status.st_size), '\0');
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t n = pread(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) systemError("cannot read a file in memory");
-    done += static_cast<size_t>(n);
-  }
-  return bytes;
-}
+std::string MemoryFile::contents() const { return rad::OpenFile(path()).contents("file in memory"); }
 
 ChildResult runChild(const std::vector<std::string>& words, const MemoryFile& in, const MemoryFile& out) {
   std::vector<char*> pointers;
