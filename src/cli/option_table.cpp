@@ -15,6 +15,8 @@
 namespace rsphere {
 namespace {
 
+using OwnWords = std::span<const std::string>;  // the words after the name of an option
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargestInt = std::numeric_limits<int>::max();
 constexpr Range kNotNegative{0, kInfinity};
@@ -24,8 +26,7 @@ constexpr Range kCount{0, kLargestInt};
 // -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te, -tE,
 // -ti and -tI include or exclude modifiers in ray trees. An option of one kind discards earlier names of the
 // other kind.
-void setModifiers(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                  std::string_view) {
+void setModifiers(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';
   auto& excluded = ambient ? options.ray.ambientExcluded : options.treeExcluded;
   auto& included = ambient ? options.ray.ambientIncluded : options.treeIncluded;
@@ -40,8 +41,7 @@ void setModifiers(Options& options, const OptionEntry& entry, std::span<const st
   }
 }
 
-void setFormat(Options& options, const OptionEntry& entry, std::span<const std::string>,
-               std::string_view rest) {
+void setFormat(Options& options, const OptionEntry& entry, OwnWords, std::string_view rest) {
   const auto isOneOf = [](char c, std::string_view letters) {
     return letters.find(c) != std::string_view::npos;
   };
@@ -55,14 +55,13 @@ void setFormat(Options& options, const OptionEntry& entry, std::span<const std::
   options.out = static_cast<NumberFormat>(rest.back());
 }
 
-void setOutputs(Options& options, const OptionEntry&, std::span<const std::string>, std::string_view rest) {
+void setOutputs(Options& options, const OptionEntry&, OwnWords, std::string_view rest) {
   if (rest.empty())
     throw rad::Error("empty output specification: letters follow -o without a blank, as in -ov; see -help");
   options.outputs = rest;
 }
 
-void setTask(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-             std::string_view) {
+void setTask(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const auto number = [&](const std::string& word, double least, double most) {
     const auto x = rad::parseReal(word);
     if (!x) notReal(entry.name, word);
@@ -78,8 +77,7 @@ std::string taskLine(const Options& o) {
   return fmt::format("-Sut {:g} {:g}\t\t\t", o.sphere.glare.taskBelow, o.sphere.glare.taskOpening);
 }
 
-void setThreads(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                std::string_view) {
+void setThreads(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0]);
   constexpr int kMostThreads = 4096;  // more than any machine has, so that a larger number is a typing error
@@ -89,8 +87,7 @@ void setThreads(Options& options, const OptionEntry& entry, std::span<const std:
   options.threads = static_cast<int>(*n);
 }
 
-void setWeights(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                std::string_view) {
+void setWeights(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   if (words[0] == "h")
     options.sphere.weights = Weights::homogeneous;
   else if (words[0] == "v")
@@ -101,8 +98,7 @@ void setWeights(Options& options, const OptionEntry& entry, std::span<const std:
     commandLineError(entry.name, fmt::format("\"{}\" is not h, v or c", words[0]));
 }
 
-void setRotation(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                 std::string_view) {
+void setRotation(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n || *n < 0) notInteger(entry.name, words[0], " of at least 0");
   options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
@@ -110,22 +106,19 @@ void setRotation(Options& options, const OptionEntry& entry, std::span<const std
 
 // As in rtrace, the word after -e is an expression if it contains '=' or ':'; otherwise it is the name of an
 // error file.
-void setErrorFile(Options& options, const OptionEntry&, std::span<const std::string> words,
-                  std::string_view) {
+void setErrorFile(Options& options, const OptionEntry&, OwnWords words, std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
     options.ray.definitions.push_back({false, words[0]});
   else
     options.messages.errorFile = words[0];
 }
 
-void setFunctionFile(Options& options, const OptionEntry&, std::span<const std::string> words,
-                     std::string_view) {
+void setFunctionFile(Options& options, const OptionEntry&, OwnWords words, std::string_view) {
   options.ray.definitions.push_back({true, words[0]});
 }
 
 // -SG names a file of sensors.
-void setSensors(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                std::string_view) {
+void setSensors(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const std::string& file = words[0];
   std::vector<double> numbers;
   for (const std::string& word : wordsOfFile("sensor file", file)) {
@@ -143,7 +136,7 @@ void setSensors(Options& options, const OptionEntry& entry, std::span<const std:
   for (const Sensor& sensor : sensorsOf(numbers, rad::printable(file))) options.sensors.push_back(sensor);
 }
 
-void ignore(Options&, const OptionEntry&, std::span<const std::string>, std::string_view) {}
+void ignore(Options&, const OptionEntry&, OwnWords, std::string_view) {}
 
 constexpr std::array<std::pair<std::string_view, ColorSpace>, 6> kSpaces = {{{"-pRGB", ColorSpace::rgb},
                                                                              {"-pXYZ", ColorSpace::xyz},
@@ -152,8 +145,7 @@ constexpr std::array<std::pair<std::string_view, ColorSpace>, 6> kSpaces = {{{"-
                                                                              {"-pM", ColorSpace::melanopic},
                                                                              {"-pA", ColorSpace::average}}};
 
-void setColorSpace(Options& options, const OptionEntry& entry, std::span<const std::string>,
-                   std::string_view) {
+void setColorSpace(Options& options, const OptionEntry& entry, OwnWords, std::string_view) {
   for (const auto& [name, space] : kSpaces)
     if (name == entry.name) options.color.space = space;
 }
@@ -161,8 +153,7 @@ void setColorSpace(Options& options, const OptionEntry& entry, std::span<const s
 // The receptors of -pE by the symbols of CIE S 026, in the order of Receptor.
 constexpr std::array<std::string_view, 5> kReceptors = {"sc", "mc", "lc", "rh", "mel"};
 
-void setReceptor(Options& options, const OptionEntry& entry, std::span<const std::string>,
-                 std::string_view rest) {
+void setReceptor(Options& options, const OptionEntry& entry, OwnWords, std::string_view rest) {
   const auto found = std::find(kReceptors.begin(), kReceptors.end(), rest);
   if (found == kReceptors.end())
     commandLineError(fmt::format("{}{}", entry.name, rest), "it is -pEsc, -pEmc, -pElc, -pErh or -pEmel");
@@ -175,8 +166,7 @@ std::string receptorLine(const Options& o) {
   return fmt::format("-pE{}\t\t\t\t", kReceptors[static_cast<size_t>(o.color.receptor)]);
 }
 
-void setPrimaries(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                  std::string_view) {
+void setPrimaries(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   for (size_t i = 0; i < words.size(); ++i) {
     const auto x = rad::parseReal(words[i]);
     if (!x) notReal(entry.name, words[i]);
@@ -185,16 +175,14 @@ void setPrimaries(Options& options, const OptionEntry& entry, std::span<const st
   options.color.space = areStandard(options.color.primaries) ? ColorSpace::rgb : ColorSpace::primaries;
 }
 
-void setSpectralOutput(Options& options, const OptionEntry& entry, std::span<const std::string>,
-                       std::string_view rest) {
+void setSpectralOutput(Options& options, const OptionEntry& entry, OwnWords, std::string_view rest) {
   const bool before = options.color.space == ColorSpace::spectrum;
   const auto on = switched(rest, before);
   if (!on) commandLineError(fmt::format("{}{}", entry.name, rest), "it is a switch: -co+ or -co-");
   if (*on != before) options.color.space = *on ? ColorSpace::spectrum : ColorSpace::rgb;
 }
 
-void setBands(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-              std::string_view) {
+void setBands(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const auto n = rad::parseInteger(words[0]);
   if (!n) notInteger(entry.name, words[0], fmt::format(" from 3 to {}", kMostBands));
   // As in rtrace, too many bands are not an error.
@@ -205,8 +193,7 @@ void setBands(Options& options, const OptionEntry& entry, std::span<const std::s
       static_cast<int>(std::clamp<int64_t>(*n, std::numeric_limits<int>::min(), kMostBands));
 }
 
-void setWavelengths(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                    std::string_view) {
+void setWavelengths(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const auto a = rad::parseReal(words[0]), b = rad::parseReal(words[1]);
   if (!a || !b) notReal(entry.name, words[a ? 1 : 0]);
   options.color.shortest = std::min(*a, *b);
@@ -214,8 +201,7 @@ void setWavelengths(Options& options, const OptionEntry& entry, std::span<const 
 }
 
 // -Sa has an accuracy and, after a comma, the least value to which it refers.
-void setAccuracy(Options& options, const OptionEntry& entry, std::span<const std::string> words,
-                 std::string_view) {
+void setAccuracy(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const std::string& word = words[0];
   const size_t comma = word.find(',');
   options.sphere.accuracy = realWord(entry, word.substr(0, comma));
