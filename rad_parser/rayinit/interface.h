@@ -8,10 +8,10 @@
 // "Function files"; the names in rayinit.cal.
 namespace rad::calc {
 
-// The inputs in the order of the enumeration; the functions that rtrace adds to the language: source_corr(value,
-// kind), source_theta(any) and source_phi(symmetry) of ies2rad's luminaires, and fprism_val(value, which,
-// rank) of prism panels; and rayinit.cal: the file found along RAYPATH, or else kRayinit. access: the files
-// that the scene may name, for messages about missing function files.
+// The inputs in the order of the enumeration; the functions that rtrace adds to the language:
+// source_corr(value, kind), source_theta(any) and source_phi(symmetry) of ies2rad's luminaires, and
+// fprism_val(value, which, rank) of prism panels; and rayinit.cal: the file found along RAYPATH, or else
+// kRayinit. access: the files that the scene may name, for messages about missing function files.
 Interface sceneInterface(const FileAccess& access = {});
 
 // The text of rayinit.cal in this program.

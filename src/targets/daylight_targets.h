@@ -35,8 +35,8 @@ class MirroredOpenings {
   const OpeningImages* images_;  // null: none
 };
 
-// Images of openings in mirroring balls and cylinders, such as columns and rails of chrome. They are small and
-// far brighter than the rest of the object (see glints.h).
+// Images of openings in mirroring balls and cylinders, such as columns and rails of chrome. They are small,
+// and far brighter than the rest of the object (see glints.h).
 class CurvedImages {
  public:
   // Uses the special objects that are balls or cylinders, seen from outside, of the materials in glints.h.
