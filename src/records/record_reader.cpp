@@ -114,7 +114,6 @@ bool RecordReader::refill() {
   if (got < 0) throw rad::Error(systemText(name_), rad::Status::system);
   atEnd_ = got == 0;
   end_ += static_cast<size_t>(got);
-  bytes_ += static_cast<uint64_t>(got);
   return !atEnd_;
 }
 

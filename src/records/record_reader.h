@@ -52,9 +52,8 @@ class RecordReader {
   void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
   bool interrupted() const { return interrupted_; }
 
-  // Number of records returned, and of bytes read from the descriptor.
+  // Number of records returned.
   uint64_t records() const { return records_; }
-  uint64_t bytes() const { return bytes_; }
 
   // The fraction of a regular file that has been returned, 0 to 1; 0 for other input.
   double shareRead() const;
@@ -92,7 +91,7 @@ class RecordReader {
   bool atEnd_ = false, interrupted_ = false;
   std::vector<int> wakeFds_;
   std::function<void(bool)> waiting_;
-  uint64_t records_ = 0, bytes_ = 0;
+  uint64_t records_ = 0;
   // Text: the line of begin_, from 1, and the numbers of an incomplete record.
   uint64_t line_ = 1, lastNumberLine_ = 1;
   std::array<double, kMostNumbers> partial_{};
