@@ -560,10 +560,9 @@ Options modeDefaults(bool sphereMode) {
 // At each pixel, a picture has a tenth of the rays of a gather for a cache record, and averages them over
 // nearby pixels. Measured in the classroom of examples/daylight (-ab 8, 1024 x 512 pixels):
 // - Rays of a gather: 32, in 10 s. With 16, blotches are visible on the ceiling beside the windows.
-// - Patches: with 1024 rays and an accuracy of .2, which are 61 rays for a usual patch, they are visible
-//   neither through a gather nor in a floor of roughness .02. With 256, walls beside a frosted skylight have
-//   clouds, and the floor has pale blobs: one in a hundred of its pixels exceeds the median around it by 8
-//   instead of 4%, in 10% less time.
+// - Patches: 1024 rays and an accuracy of .2, which are 61 rays for a usual patch. With 256, pale blobs on a
+//   floor of roughness .02 are twice as strong: one in a hundred of its pixels exceeds the median around it
+//   by 8 instead of 4%, in 10% less time.
 // - Jitter: full, as for answers. With .6, the soft shadow of a lamp of .3 x 1 m has steps. Above .5, rays of
 //   gathers do not divide luminaires into parts.
 // - Lobes are sampled 8 times, and averaged over 60 pixels.
