@@ -13,7 +13,7 @@ from rsphere.fault import Fault
 from rsphere.layout.design import Goal, read_design
 from rsphere.layout.polish import SHARES, TILTS, layout_text, neighbours, not_allowed, read_layout, spaces, tilted
 from rsphere.layout.room import read_polygons
-from rsphere.layout.search import Layout, search
+from rsphere.layout.search import Layout, Solver, search
 from rsphere.layout.steps import Steps
 from rsphere.layout.wanted import Answer, Row
 from run_here import InAFolder, built, run_here
@@ -99,6 +99,20 @@ class Places(InAFolder):
             rows = [Row(goal, np.array([100.0, 100.0]), -float(wanted), 1, float(wanted))]
             layout = search(design, design.candidates, np.array([13.0, 13.0]), [rows], 2.0)
             self.assertEqual((bool(layout.misses), len(layout.others(1.0))), (not count, count))
+
+    def test_fewer_watts_where_goals_are_missed(self):
+        """What was found when the time was out hung all luminaires, since only what goals miss counted."""
+        design = self.design(*(f"place spot {x} 2.5 2.8" for x in (1, 3, 5, 7)))
+        goal, other = (Goal("illuminance", name, 300, ("goals.txt", 1)) for name in ("desk", "floor"))
+        # The last two luminaires give the desk nothing, and the limit on the floor is missed by what hangs.
+        rows = [Row(goal, np.array([100.0, 90.0, 0.0, 0.0]), -300.0, 1, 300.0), Row(other, np.array([1.0, 1.0, 0.0, 0.0]), 0.0, -1, 1.0)]
+        solver = Solver(design, design.candidates, np.full(4, 13.0), [rows], True, 1e-9)
+        found = solver.program.solve(5, 0.0, solver.x, np.ones(4))
+        less = solver.with_fewer_watts(found, 0.5)
+        self.assertEqual([round(v) for v in found.x[solver.x]], [1, 1, 1, 1])
+        self.assertEqual([round(v) for v in less.x[solver.x]], [1, 1, 0, 0])
+        for (_, _, v), most in zip(solver.slacks, solver.slack):
+            self.assertLessEqual(less.x[v], most + 1e-9)
 
     def test_what_would_help(self):
         """A search that was too short said that goals are missed, and nothing else."""

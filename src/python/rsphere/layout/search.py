@@ -254,11 +254,17 @@ class Solver:
     def __init__(self, design, candidates, watts, scenes, elastic, dimmed):
         self.design, self.candidates, self.watts, self.elastic, self.dimmed = design, candidates, watts, elastic, dimmed
         self.rows = Rows(scenes)
+        self.slack = None  # by how much goals may be missed, if watts are what counts
         self.build()
 
     def build(self):
         """Rows that are added leave the numbers of the variables as they are."""
         self.program, self.x, self.levels, self.slacks = build(self.design, self.candidates, self.watts, self.rows.taken(), self.elastic, self.dimmed)
+        if self.slack is not None:
+            for (_, _, v), most in zip(self.slacks, self.slack):
+                self.program.cost[v], self.program.upper[v] = 0.0, most
+            for v, watts in zip(self.x, self.watts):
+                self.program.cost[v] = watts
 
     def missed(self, found):
         """Whether rows are missed that were left out; then they are there from now on."""
@@ -286,7 +292,7 @@ class Solver:
         position = np.array([c.position[:2] for c in self.candidates])
         free, failed = min(60, len(position)), 0
         while time.monotonic() < end and best.fun > bound + gap * abs(best.fun):
-            if not self.elastic:
+            if not self.elastic or self.slack is not None:
                 PROGRESS.show(f"Search: {best.fun:.0f} W found, none takes less than {bound:.0f} W, {end - time.monotonic():.0f} s left")
             middle = position[random.choice(len(position))]
             others = np.argsort(np.hypot(*(position - middle).T), kind="stable")[free:]
@@ -299,6 +305,12 @@ class Solver:
                 free, failed = int(1.3 * free), 0
         return best
 
+    def with_fewer_watts(self, best, seconds):
+        """Layouts that miss no goal by more than the best does, but take less."""
+        self.slack = [max(best.x[v], 0) + 1e-6 for _, _, v in self.slacks]
+        self.build()
+        best.fun = float(np.dot(self.program.cost, best.x))
+        return self.improved(best, time.monotonic() + seconds, 0.0, 0.0)
 
     def others(self, best, seconds):
         """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere."""
@@ -324,7 +336,9 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e
     proven = found.status == 2  # not just out of time
     if found.x is None:
         solver = Solver(design, candidates, watts, scenes, True, dimmed)
-        found = solver.solve(seconds, gap)
+        found = solver.solve(seconds / 2, gap)
+        if found.x is not None and found.status != 0:  # out of time: watts have hardly counted
+            found = solver.with_fewer_watts(found, seconds / 2)
         if found.x is None:
             raise fault(design.file, None, "the arrangement (rows, mirror, apart, most) leaves no layout")
         misses = [(s, goal, float(found.x[v])) for s, goal, v in solver.slacks if found.x[v] > 1e-3]
