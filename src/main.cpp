@@ -11,7 +11,7 @@
 #include "answer/header.h"
 #include "answer/load_scene.h"
 #include "answer/messages.h"
-#include "answer/picture_progress.h"
+#include "answer/progress.h"
 #include "base/tuned.h"
 #include "cli/option_table.h"
 #include "cli/print_request.h"

@@ -16,7 +16,7 @@ namespace rad::calc {
 //   Ts      length of this ray or, if it is part of a shadow ray, of the whole shadow ray
 //   Lu, Lv  texture coordinates of meshes; 0 for other surfaces
 //   NxP     perturbed surface normal, for materials with functions or data; RdotP: perturbed Rdot
-//   CrP     perturbed material colour
+//   CrP     perturbed material color
 //   DxA     direction to the target light source, or 0, for prism1 and prism2
 // clang-format off
 enum Input : uint32_t {

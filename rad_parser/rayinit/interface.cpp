@@ -38,7 +38,7 @@ double projectedArea(const double* direction, double x, double y, double z) {
 //   0  no luminaire: the value as it is
 //   1  a flat luminaire
 //   2  a box, with real arguments 2 to 4 as its sides
-// 3 a box seen from nearby, with the arguments of kind 2
+//   3  a box seen from nearby, with the arguments of kind 2
 //   4  an upright cylinder, with real arguments 2 and 3 as its diameter and height
 // Source: the functions corr, flatcorr, boxcorr, lboxcorr and cylcorr of rayinit.cal and source.cal.
 double sourceCorrection(const Point& point, std::span<const double> arguments) {

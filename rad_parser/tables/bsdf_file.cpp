@@ -368,7 +368,7 @@ class BsdfReader {
   }
 
   // Removes chromaticity without luminance, and single coordinates of chromaticity, because they do not
-  // determine a colour.
+  // determine a color.
   void dropIncomplete() {
     for (auto& m : file_.matrices) {
       if (m && m->y.empty()) m.reset();

@@ -28,7 +28,7 @@ struct AngleBasis {
 struct BsdfMatrix {
   size_t incident = 0, scattered = 0;  // index in BsdfFile::bases
   std::vector<float> y;                // at [scattered cell * number of incident cells + incident cell]
-  std::vector<float> x, z;             // in the order of y; both are empty for grey scattering
+  std::vector<float> x, z;             // in the order of y; both are empty for gray scattering
 };
 
 // A function on the unit cube of `rank` dimensions. It is constant on smaller cubes, obtained by repeated
@@ -44,7 +44,7 @@ struct TensorTree {
 };
 struct BsdfTrees {
   TensorTree y;     // scattering, 1/sr
-  TensorTree u, v;  // chromaticity u', v' (CIE 1976); both are empty for grey scattering
+  TensorTree u, v;  // chromaticity u', v' (CIE 1976); both are empty for gray scattering
 };
 
 // The bidirectional scattering of a surface, from an XML file of WINDOW 6, genBSDF(1) or other programs. The

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "answer/header.h"
-#include "answer/picture_progress.h"
+#include "answer/progress.h"
 #include "base/constants.h"
 #include "base/spectral_sampling.h"
 #include "pictures/draw_point.h"

@@ -7,7 +7,7 @@
 #include "answer/answer_options.h"
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
-#include "answer/picture_progress.h"
+#include "answer/progress.h"
 #include "answer/run_summary.h"
 #include "estimate/estimator.h"
 

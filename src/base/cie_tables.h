@@ -9,9 +9,8 @@ struct CieCurve {
   int shortest = 0;  // nm, of the first value
   int step = 1;      // nm
 
-  int longest() const {
-    return shortest + step * (static_cast<int>(values.size()) - 1);
-  }  // nm, of the last value
+  // nm, of the last value.
+  int longest() const { return shortest + step * (static_cast<int>(values.size()) - 1); }
 };
 
 // The color matching functions of the observer of 1931 (2 degrees). The second is V(lambda). Source: CIE

@@ -16,7 +16,7 @@ using Primaries = std::array<double, 8>;
 // RADIANCE's nominal monitor, with equal-energy white.
 inline constexpr Primaries kStandardPrimaries = {.640, .330, .290, .600, .150, .060, 1 / 3., 1 / 3.};
 
-// The colour space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), with RADIANCE's digits, and its
+// The color space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), with RADIANCE's digits, and its
 // inverse: xyz * kSharpFromXyz. Their product differs from the unit matrix by 9e-5, an error that rtrace's
 // colors share.
 inline const M33d kSharpFromXyz(1.2694, -.8364, .0297, -.0988, 1.8006, -.0315, -.1706, .0357, 1.0018);

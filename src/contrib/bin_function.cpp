@@ -14,6 +14,8 @@ namespace {
 
 namespace calc = rad::calc;
 
+constexpr double kMostBins = 100000;  // of directionBins(): the limit of -Sz
+
 // Converts the parameters of -p to definitions. Throws rad::Error if they are not a list of named numbers.
 std::vector<std::string> definitionsOf(const std::string& parameters) {
   std::vector<std::string> definitions;
@@ -104,12 +106,6 @@ BinFunction BinFunctions::compile(std::string_view option, const std::string& ex
   request.reals = std::span<const double>();
   return BinFunction(libraryOf(definitions).compile(request));
 }
-
-namespace {
-
-constexpr double kMostBins = 100000;  // the limit of -Sz
-
-}  // namespace
 
 std::shared_ptr<const DirectionBins> directionBins(const std::string& bin, const std::string& count,
                                                    const BinDefinitions& definitions) {

@@ -12,7 +12,7 @@ struct ImageCodec {
   // OpenImageIO's name of the format for a file's name.
   std::string (*formatOf)(const std::string& name, std::string& format);
   // The contents of a file of that format. pixels: 3 * width * height numbers, beginning with the highest
-  // row: radiance (W/sr/m2), or screen colours from 0 to 1. The file is not written here, because the writers
+  // row: radiance (W/sr/m2), or screen colors from 0 to 1. The file is not written here, because the writers
   // of some formats do not notice a full disk, and that of JPEG ends the process.
   std::string (*encode)(const std::string& name, int width, int height, bool radiance, const float* pixels,
                         std::string& bytes);

@@ -11,7 +11,7 @@ namespace rsphere {
 enum class PictureFormat {
   radiance,  // RADIANCE's format (HDR): radiance, with the view in its header
   linear,    // EXR, TIFF and PFM: radiance
-  screen     // PNG, JPEG and all others: screen colours
+  screen     // PNG, JPEG and all others: screen colors
 };
 
 // The format for the suffix of a name; .pic is also RADIANCE's. Throws rad::Error (Status::system), with the

@@ -7,13 +7,13 @@
 
 namespace rsphere {
 
-// Red, green and blue of each pixel (W/sr/m2, or screen colours from 0 to 1), beginning with the highest row.
+// Red, green and blue of each pixel (W/sr/m2, or screen colors from 0 to 1), beginning with the highest row.
 struct Raster {
   int width = 0, height = 0;
   std::vector<float> pixels;
 };
 
-// The contents of a PNG file: screen colours from 0 to 1, which are rounded to 8 bits and marked as sRGB.
+// The contents of a PNG file: screen colors from 0 to 1, which are rounded to 8 bits and marked as sRGB.
 // Values beyond are clipped. Source: ISO/IEC 15948, "Portable Network Graphics".
 std::string pngPicture(const Raster& raster);
 

@@ -25,7 +25,7 @@ using DrawingProgress = std::function<void(double done)>;
 //   separately. Their light is added to the pixels that they cover, so that none is lost and none looks
 //   enlarged.
 // transport: with the options for pictures (pictureDefaults() in cli/option_table.h). All random numbers
-// follow from seed.
+// follow from seed. white: radiance that is shown as white (W/sr/m2); 0: the eye adapts.
 Raster drawPoint(const V3d& point, const PixelMap& map, const Transport& transport,
                  const SeenSources& sources, uint64_t seed, bool forScreen, double white = 0,
                  const DrawingProgress& progress = {});

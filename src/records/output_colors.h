@@ -42,7 +42,7 @@ struct ColorOptions {
 //   -pRGB        RADIANCE's red, green and blue
 //   -pXYZ        CIE 1931, times 179 lm/W
 //   -pc          RGB of other primaries: von Kries' adaptation to their white in the cone space of
-//                the "sharp" transform; colors outside the gamut are mixed with grey until no channel
+//                the "sharp" transform; colors outside the gamut are mixed with gray until no channel
 //                is negative
 //   -pY -pS -pM  luminance (times 179 lm/W), scotopic luminance (412 lm/W), melanopic (179)
 //   -pE          equivalent daylight illuminance (CIE S 026) for a receptor of the eye

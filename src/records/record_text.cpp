@@ -20,7 +20,7 @@ void RecordText::number(double x) {
       break;
     }
     case NumberFormat::float64:
-    case NumberFormat::rgbe:  // cannot occur: parseOptions() allows a single colour only
+    case NumberFormat::rgbe:  // cannot occur: parseOptions() allows a single color only
       bytes_.append(reinterpret_cast<const char*>(&x), sizeof x);
       break;
   }

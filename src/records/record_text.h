@@ -9,7 +9,7 @@
 
 namespace rsphere {
 
-// Appends numbers, names and colours to a record in rtrace's formats: as text followed by a TAB, or as native
+// Appends numbers, names and colors to a record in rtrace's formats: as text followed by a TAB, or as native
 // floats or doubles. Names are text in all formats.
 class RecordText {
  public:

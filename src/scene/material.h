@@ -12,9 +12,9 @@
 namespace rsphere {
 
 // Materials as scene files define them (RADIANCE reference manual, "Material types"): validated values only.
-// How they scatter light is in shade/. Colours are per channel; angles are in degrees as in the files.
+// How they scatter light is in shade/. Colors are per channel; angles are in degrees as in the files.
 
-// plastic: uncoloured highlights. metal: highlights have the material's colour.
+// plastic: uncolored highlights. metal: highlights have the material's color.
 struct Opaque {
   Color color;
   double specularity = 0;  // fraction reflected specularly
@@ -59,7 +59,7 @@ struct Anisotropic {
   double transmissivity = 0, transmittedSpecular = 0;
   ModifierId functions = kNone;
 };
-// ashik2: higher powers mean a smoother surface. The reflection is the sum of both colours.
+// ashik2: higher powers mean a smoother surface. The reflection is the sum of both colors.
 struct Ashikhmin {
   Color diffuse, specular;
   double powerAlong = 0, powerAcross = 0;
@@ -97,7 +97,7 @@ struct WgmdFunction {
   ModifierId functions = kNone;
 };
 
-// BSDF and aBSDF: scattering from an XML file, to which diffuse colours are added.
+// BSDF and aBSDF: scattering from an XML file, to which diffuse colors are added.
 struct BsdfMaterial {
   bool aperture = false;  // aBSDF: light that passes straight through is treated separately
   bool proxy = false;     // BSDF whose thickness is not "0": a proxy for geometry that it hides

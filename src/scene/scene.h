@@ -17,7 +17,7 @@
 
 namespace rsphere {
 
-// Multiplies the colour of the materials that follow it in the chain.
+// Multiplies the color of the materials that follow it in the chain.
 struct Pattern {};
 // Perturbs the normal.
 struct Texture {};

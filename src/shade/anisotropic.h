@@ -20,7 +20,7 @@ Tangents tangents(const V3d& normal, const V3d& direction);
 
 // A Gaussian lobe whose mean square facet slopes differ along two directions.
 struct EllipticLobe {
-  Color share{0, 0, 0};  // of radiance, coloured; black: no lobe
+  Color share{0, 0, 0};  // of radiance, colored; black: no lobe
   V3d normal{0, 0, 1};   // perturbed, on the ray's side
   double cosine = 1;     // -normal . direction, at least .001
   Tangents tangents;
@@ -90,7 +90,7 @@ struct AshikhminScattering {
   bool sampled = false;
 };
 
-// As in RADIANCE, the specular colour rises to white by Schlick's (1 - c)^5, where c is the cosine of the ray
+// As in RADIANCE, the specular color rises to white by Schlick's (1 - c)^5, where c is the cosine of the ray
 // instead of the half vector. Because of this term the lobe is not reciprocal. Diffuse reflection of direct
 // light is reduced by 1 - (1 - c)^5 with the cosine of the source only, that of indirect light not at all. At
 // grazing angles, the albedo can therefore exceed 1 by (1 - specular) (1 - c)^5.

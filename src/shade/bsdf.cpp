@@ -19,7 +19,7 @@ using rad::BsdfFile;
 
 constexpr double kBelowOne = 1 - 0x1p-53;
 
-// ---- colour
+// ---- color
 
 Tristimulus operator*(const Tristimulus& c, double f) { return {c.x * f, c.y * f, c.z * f}; }
 Tristimulus operator-(const Tristimulus& a, const Tristimulus& b) {
@@ -35,12 +35,12 @@ Tristimulus ofChromaticity(double y, double u, double v) {
 // ---- the diffuse part
 
 // Limits (1/sr) of the diffuse part that is separated from the data. Below the first value, a diffuse
-// calculation would not be worth its cost. The second value is an upper limit for grey trees only.
+// calculation would not be worth its cost. The second value is an upper limit for gray trees only.
 constexpr double kLeastDiffuse = .01 / kPi;
 constexpr double kMostDiffuseTree = 1.5 / kPi;
 
-// The channel-wise minimum of several colours. Sharpened sensors (kSharpFromXyz) distort it least. As in
-// RADIANCE, it is the diffuse part of coloured data.
+// The channel-wise minimum of several colors. Sharpened sensors (kSharpFromXyz) distort it least. As in
+// RADIANCE, it is the diffuse part of colored data.
 class Smallest {
  public:
   void add(const Tristimulus& c) {

@@ -22,7 +22,7 @@ namespace rsphere {
 struct Tristimulus {
   double x = 0, y = 0, z = 0;
 };
-// Converts to RADIANCE's primaries and white point. Colours outside their gamut are mixed with grey of the
+// Converts to RADIANCE's primaries and white point. Colors outside their gamut are mixed with gray of the
 // same luminance until no channel is negative.
 Color rgbOf(const Tristimulus& c);
 

@@ -16,7 +16,7 @@ namespace rsphere {
 struct FunctionScattering {
   V3d normal{0, 0, 1};   // perturbed, on the ray's side
   double cosine = 1;     // -normal . direction
-  Color color{1, 1, 1};  // passed to the functions as the material's colour
+  Color color{1, 1, 1};  // passed to the functions as the material's color
   SharpPaths sharp;
   Color diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   Color ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};

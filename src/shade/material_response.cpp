@@ -46,7 +46,7 @@ Interaction modified(MaterialHit& hit) {
   return hit.interaction();
 }
 
-// BRTDfunc and similar functions receive the normal and the colour of the scattering.
+// BRTDfunc and similar functions receive the normal and the color of the scattering.
 FunctionPoint pointOf(const MaterialHit& hit, const FunctionScattering& s) {
   FunctionPoint point = hit.point();
   point.perturbedNormal = s.normal;

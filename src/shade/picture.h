@@ -25,7 +25,7 @@ class Picture {
   size_t width() const { return width_; }
   size_t height() const { return height_; }
 
-  // The colour at (x, y), interpolated linearly between pixels. The center of the lower left pixel is at (0,
+  // The color at (x, y), interpolated linearly between pixels. The center of the lower left pixel is at (0,
   // 0), and the opposite corner pixel at the size of the picture. The shorter side, considering PIXASPECT, is
   // 1 (RADIANCE reference manual, "Colorpict"). Outside, the picture is extended like a data file
   // (rad::DataFile::value).

@@ -29,7 +29,7 @@ struct Interaction {
   bool flat = false;          // a plane surface, whose sharp reflections show an undistorted image
   bool smoothed = false;      // see Surface::smoothed
   V3d perturbation{0, 0, 0};  // sum of all textures, on the side from which the ray arrived
-  Color pattern{1, 1, 1};     // factor of all patterns on the material's colour
+  Color pattern{1, 1, 1};     // factor of all patterns on the material's color
   unsigned kinds = kPrimary;  // of the ray and its ancestors
 };
 

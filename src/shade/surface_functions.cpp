@@ -196,7 +196,7 @@ class SurfaceFunctions::Maker {
     return all;
   }
 
-  // The second and third function of a colour receive only the value of their own channel if they take fewer
+  // The second and third function of a color receive only the value of their own channel if they take fewer
   // than three arguments, otherwise all three values.
   std::vector<int> colorsPassed(std::string_view file, const Words& names) const {
     std::vector<int> passed{3};

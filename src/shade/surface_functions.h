@@ -69,7 +69,7 @@ class SurfaceFunctions {
   //   (Status::system if the file does not exist), their contents, a transform, or the number of arguments.
   // - An expression uses a name that does not exist.
 
-  // The factor on the colour of the modified material. Neutral value: (1, 1, 1). For a spectral pattern
+  // The factor on the color of the modified material. Neutral value: (1, 1, 1). For a spectral pattern
   // (spectrum, specfile, specfunc, specdata, specpict), the color has bands in a spectral run; in a run of
   // three channels it is RADIANCE's conversion of the spectrum to red, green and blue.
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;

@@ -178,7 +178,7 @@ bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d&
   return std::any_of(spot.places.begin(), spot.places.end(), [&](const V3d& place) {
     const V3d way = place - point;
     const double distance = way.length();
-    return way.dot(spot.normal) < 0 && tracer.shadow(point, way / distance, distance * (1 - 1e-6), kNone,
+    return way.dot(spot.normal) < 0 && tracer.shadow(point, way / distance, distance * (1 - kEnd), kNone,
                                                      nullptr, kInSpace) != Shadow::blocked;
   });
 }

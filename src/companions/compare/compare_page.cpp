@@ -33,7 +33,7 @@ std::string pngOf(const Answers& answers, const CompareSubject& subject, double 
   return pngPicture(raster);
 }
 
-// The exposure at which the median of the original's pixels that are not black becomes middle grey.
+// The exposure at which the median of the original's pixels that are not black becomes middle gray.
 double exposureOf(const Answers& original) {
   std::vector<double> bright;
   for (size_t i = 0; i < original.records; ++i)

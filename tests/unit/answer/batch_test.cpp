@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "answer/picture_progress.h"
+#include "answer/progress.h"
 #include "tests/unit/support/command_line.h"
 
 namespace rsphere {

@@ -292,7 +292,7 @@ class Solver:
         position = np.array([c.position[:2] for c in self.candidates])
         free, failed = min(60, len(position)), 0
         while time.monotonic() < end and best.fun > bound + gap * abs(best.fun):
-            if not self.elastic or self.slack is not None:
+            if not self.elastic:
                 PROGRESS.show(f"Search: {best.fun:.0f} W found, none takes less than {bound:.0f} W, {end - time.monotonic():.0f} s left")
             middle = position[random.choice(len(position))]
             others = np.argsort(np.hypot(*(position - middle).T), kind="stable")[free:]

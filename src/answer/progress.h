@@ -6,7 +6,6 @@
 
 namespace rsphere {
 
-// The interval between progress reports.
 // Seconds between reports without -t. Short jobs are finished before the first report.
 inline constexpr double kReportSeconds = 5;
 

@@ -1,4 +1,4 @@
-#include "answer/picture_progress.h"
+#include "answer/progress.h"
 
 #include <fmt/format.h>
 
