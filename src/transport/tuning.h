@@ -117,6 +117,9 @@ struct SpecularLight {
 struct DirectLight {
   // Rays of a gather for each time that the direct light of its surface is drawn (outgoing_light.cpp).
   static constexpr int kRaysForDraw = 64;
+  // Where there are few sources: rays of a gather for each shadow ray of its surface. In the half-shadow of
+  // the sun, the noise of shadow rays is otherwise larger than that of the gather.
+  static constexpr int kRaysForShadowRay = 4;
   // With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample
   // is then spread over more than half of its source.
   static constexpr double kWideJitter = .5;
