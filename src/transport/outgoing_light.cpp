@@ -116,8 +116,9 @@ int OutgoingLight::drawsOfDirect(const RayEnd& end, int gathered) const {
   if (end.context.ambientLevel > 0 || !(t_.options().directJitter > 0)) return 1;
   if (state_.request.observer && state_.request.shadows != ShownShadows::thatArrive) return 1;
   const int sources = static_cast<int>(t_.lights().all().size());
+  if (sources == 0) return 1;
   return std::max({1, gathered / tuning::DirectLight::kRaysForDraw,
-                   gathered / (tuning::DirectLight::kRaysForShadowRay * std::max(1, sources))});
+                   gathered / (tuning::DirectLight::kRaysForShadowRay * sources)});
 }
 
 // Light of sources by shadow rays from a point on one side. shares: whether samples of a lobe estimate a part
