@@ -73,6 +73,15 @@ TEST(TradePlot, HasTheAccuracyAskedForOnItsAxis) {
   }
 }
 
+// Interpolation (-aa) of what points see is no setting of rays.
+TEST(TradePlot, NamesRaysOnlyWhereRaysAreMeasured) {
+  Case c = threeSettings();
+  c.all[0].words = {"-aa", ".1"};
+  EXPECT_EQ(tradePlot(c.all, c.subject).find("rays, as"), std::string::npos);
+  c.subject.perPoint = 6;
+  EXPECT_NE(tradePlot(c.all, c.subject).find("rays, as"), std::string::npos);
+}
+
 TEST(TradePage, HasEveryFigureOfTheTable) {
   const Case c = threeSettings();
   const auto page = parsed(tradePage(c.all, c.reference, c.subject, 0));
