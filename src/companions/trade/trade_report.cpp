@@ -35,9 +35,9 @@ constexpr Series kSeries[] = {{"equal weights (-Sw h)", "#888888"},
                               {"until an accuracy (-Sa)", "#1a9850"},
                               {"rays, as -ad and -as say", "#7570b3"}};
 
-size_t seriesOf(const Figures& f) {
+size_t seriesOf(const Figures& f, bool rays) {
   if (std::find(f.words.begin(), f.words.end(), "-Sa") != f.words.end()) return 3;
-  if (std::find(f.words.begin(), f.words.end(), "-aa") != f.words.end()) return 4;
+  if (rays) return 4;
   const auto weights = std::find(f.words.begin(), f.words.end(), "-Sw");
   if (weights == f.words.end() || weights + 1 == f.words.end()) return 2;
   return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
@@ -108,8 +108,10 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
   const std::string title =
       fmt::format("{}: {} points", subject.scene, subject.points.size() / subject.perPoint);
   if (extent.empty()) return barsSvg(title + ": no setting has both an error and a time", {});
-  Plot plot(title, extent, {"CPU time a point, ms"}, {"rms error, relative to the reference", 1, "%"});
+  const bool rays = subject.perPoint == 6;
   const double wanted = 100 * subject.accuracy;
+  extent.push_back({extent.front().x, wanted});  // the legend names this line
+  Plot plot(title, extent, {"CPU time a point, ms"}, {"rms error, relative to the reference", 1, "%"});
   const std::array goal = {PlotPoint{plot.xLow(), wanted}, PlotPoint{plot.xHigh(), wanted}};
   plot.line(goal, kInk, kDots);
   std::sort(best.begin(), best.end(),
@@ -120,10 +122,11 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
   for (const Figures& f : all)
     if (isDrawn(f))
       plot.mark(
-          pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f)].color,
+          pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f, rays)].color,
           fmt::format("{}: {} ms, {}", fmt::join(f.words, " "), milliseconds(f.seconds), percent(f.rms)));
   for (size_t k = 0; k < std::size(kSeries); ++k)
-    if (std::any_of(all.begin(), all.end(), [&](const Figures& f) { return isDrawn(f) && seriesOf(f) == k; }))
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const Figures& f) { return isDrawn(f) && seriesOf(f, rays) == k; }))
       plot.legend(Plot::Key::disc, kSeries[k].color, std::string(kSeries[k].name));
   if (const Figures& f = all[subject.recommended.index]; isDrawn(f)) {
     plot.ring(pointOf(f), kRing);

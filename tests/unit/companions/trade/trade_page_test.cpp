@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "companions/trade/trade_report.h"
 #include "tests/unit/support/markup_of.h"
 
@@ -52,6 +54,32 @@ TEST(TradePlot, NamesTheDashedLineOnlyWhereItIsDrawn) {
   const std::string one = tradePlot(c.all, c.subject);
   EXPECT_EQ(one.find(dashes), std::string::npos);
   EXPECT_EQ(one.find(name), std::string::npos);
+}
+
+// An accuracy that every setting exceeds was a line in the legend, and none in the plot.
+TEST(TradePlot, HasTheAccuracyAskedForOnItsAxis) {
+  Case c = threeSettings();
+  for (const double accuracy : {1e-4, .5}) {
+    c.subject.accuracy = accuracy;
+    const std::string plot = tradePlot(c.all, c.subject);
+    // The box that clips lines, and the first of them: the dotted one.
+    double left = 0, top = 0, width = 0, height = 0, x = 0, y = 0;
+    const size_t box = plot.find("viewBox=", plot.find("<svg") + 4), line = plot.find("<path d=\"M", box);
+    ASSERT_NE(line, std::string::npos);
+    ASSERT_EQ(std::sscanf(plot.c_str() + box, "viewBox=\"%lf %lf %lf %lf", &left, &top, &width, &height), 4);
+    ASSERT_EQ(std::sscanf(plot.c_str() + line, "<path d=\"M%lf %lf", &x, &y), 2);
+    EXPECT_GT(y, top);
+    EXPECT_LT(y, top + height);
+  }
+}
+
+// Interpolation (-aa) of what points see is no setting of rays.
+TEST(TradePlot, NamesRaysOnlyWhereRaysAreMeasured) {
+  Case c = threeSettings();
+  c.all[0].words = {"-aa", ".1"};
+  EXPECT_EQ(tradePlot(c.all, c.subject).find("rays, as"), std::string::npos);
+  c.subject.perPoint = 6;
+  EXPECT_NE(tradePlot(c.all, c.subject).find("rays, as"), std::string::npos);
 }
 
 TEST(TradePage, HasEveryFigureOfTheTable) {
