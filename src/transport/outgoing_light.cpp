@@ -111,14 +111,15 @@ template <ScattersLight S>
 
 // The number of times that the direct light of a surface is drawn. Jittered shadow rays to light sources are
 // noisy. A gather at the surface sends so many rays that drawing this light several times takes no time
-// beside them. Ray trees (-ot) show each source once. gathered: rays of the gather.
+// beside them; few sources are drawn more often than many. Ray trees (-ot) show each source once. gathered:
+// rays of the gather.
 int OutgoingLight::drawsOfDirect(const RayEnd& end, int gathered) const {
-  if (end.context.ambientLevel > 0 || !(t_.options().directJitter > 0)) return 1;
+  const size_t sources = t_.lights().all().size();
+  if (end.context.ambientLevel > 0 || !(t_.options().directJitter > 0) || sources == 0) return 1;
   if (state_.request.observer && state_.request.shadows != ShownShadows::thatArrive) return 1;
-  const int sources = static_cast<int>(t_.lights().all().size());
-  if (sources == 0) return 1;
-  return std::max({1, gathered / tuning::DirectLight::kRaysForDraw,
-                   gathered / (tuning::DirectLight::kRaysForShadowRay * sources)});
+  using Tuned = tuning::DirectLight;
+  return std::max(
+      1, gathered / (Tuned::kRaysForShadowRay * static_cast<int>(std::min(sources, Tuned::kFewDrawn))));
 }
 
 // Light of sources by shadow rays from a point on one side. shares: whether samples of a lobe estimate a part

@@ -115,11 +115,12 @@ struct SpecularLight {
 
 // Shadow rays (direct_light.cpp).
 struct DirectLight {
-  // Rays of a gather for each time that the direct light of its surface is drawn (outgoing_light.cpp).
-  static constexpr int kRaysForDraw = 64;
-  // Where there are few sources: rays of a gather for each shadow ray of its surface. In the half-shadow of
-  // the sun, the noise of shadow rays is otherwise larger than that of the gather.
+  // Rays of a gather for each shadow ray of its surface (outgoing_light.cpp). Measured for a sensor in the
+  // half-shadow of the sun, with -ad 1024: with 64 and 4, 18 and 4% of noise, in the same time
+  // (tests/bench/rtrace/runs/2026-11-29-random-rooms.txt).
   static constexpr int kRaysForShadowRay = 4;
+  // Of more sources than this, each is drawn as often as of this number: once for 64 rays of the gather.
+  static constexpr size_t kFewDrawn = 16;
   // With a jitter (-dj) above this, the rays of gathers do not divide sources into parts, because one sample
   // is then spread over more than half of its source.
   static constexpr double kWideJitter = .5;

@@ -22,7 +22,7 @@ struct TradeSubject {
   std::string pointsFile;  // file of points, and number of points in it
   size_t pointsInFile = 0;
   std::vector<double> points;  // measured points, or the origins and directions of rays
-  size_t perPoint = 3;         // numbers of each
+  size_t perPoint = 3;         // numbers of each: 3 of a point, 6 of a ray
   double accuracy = 0;         // requested accuracy
   int bounces = 0;             // of the reference (-ab)
   Recommendation recommended;

@@ -82,11 +82,11 @@ TEST(ContributionEstimator, StatesTheSpreadOfEachBin) {
 }
 
 TEST(ContributionEstimator, TheSumReachesTheAccuracy) {
-  const Bins found = repeatBins(64, {.accuracy = .02}, 60);
+  const Bins found = repeatBins(64, {.accuracy = .01}, 60);
   const double off = std::sqrt(found.sum.variance()) / found.sum.mean();
-  EXPECT_LT(off, 1.15 * .02);
-  EXPECT_GT(off, .25 * .02) << "it takes more rays than the accuracy asks for";
-  EXPECT_LE(found.sumError.mean(), .02);
+  EXPECT_LT(off, 1.15 * .01);
+  EXPECT_GT(off, .3 * .01) << "it takes more rays than the accuracy asks for";
+  EXPECT_LE(found.sumError.mean(), .01);
   EXPECT_TRUE(binsAreHonest(found.trueOverStated())) << found.trueOverStated();
 }
 
