@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "base/version.h"
 #include "companions/report/page.h"
@@ -98,35 +99,28 @@ std::string bouncesText(int bounces) {
 std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject) {
   const auto pointOf = [](const Figures& f) { return PlotPoint{1e3 * f.seconds, 100 * f.rms}; };
   const auto isDrawn = [](const Figures& f) { return f.rms > 0 && f.seconds > 0; };
-  std::vector<PlotPoint> extent;
-  std::vector<Figures> best;
-  for (const Figures& f : all) {
-    if (!isDrawn(f)) continue;
-    extent.push_back(pointOf(f));
-    if (f.best) best.push_back(f);
-  }
+  std::vector<Figures> drawn;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(drawn), isDrawn);
   const std::string title =
       fmt::format("{}: {} points", subject.scene, subject.points.size() / subject.perPoint);
-  if (extent.empty()) return barsSvg(title + ": no setting has both an error and a time", {});
+  if (drawn.empty()) return barsSvg(title + ": no setting has both an error and a time", {});
   const bool rays = subject.perPoint == 6;
   const double wanted = 100 * subject.accuracy;
-  extent.push_back({extent.front().x, wanted});  // the legend names this line
+  std::vector<PlotPoint> curve, extent{{pointOf(drawn.front()).x, wanted}};  // the legend names this line
+  for (const Figures& f : drawn) {
+    extent.push_back(pointOf(f));
+    if (f.best) curve.push_back(pointOf(f));
+  }
+  std::ranges::sort(curve, {}, &PlotPoint::x);
   Plot plot(title, extent, {"CPU time a point, ms"}, {"rms error, relative to the reference", 1, "%"});
   const std::array goal = {PlotPoint{plot.xLow(), wanted}, PlotPoint{plot.xHigh(), wanted}};
   plot.line(goal, kInk, kDots);
-  std::sort(best.begin(), best.end(),
-            [](const Figures& a, const Figures& b) { return a.seconds < b.seconds; });
-  std::vector<PlotPoint> curve;
-  for (const Figures& f : best) curve.push_back(pointOf(f));
   if (curve.size() > 1) plot.line(curve, kInk, kDashes);
-  for (const Figures& f : all)
-    if (isDrawn(f))
-      plot.mark(
-          pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f, rays)].color,
-          fmt::format("{}: {} ms, {}", fmt::join(f.words, " "), milliseconds(f.seconds), percent(f.rms)));
+  for (const Figures& f : drawn)
+    plot.mark(pointOf(f), f.best ? 5 : 3.5, kSeries[seriesOf(f, rays)].color,
+              fmt::format("{}: {} ms, {}", fmt::join(f.words, " "), milliseconds(f.seconds), percent(f.rms)));
   for (size_t k = 0; k < std::size(kSeries); ++k)
-    if (std::any_of(all.begin(), all.end(),
-                    [&](const Figures& f) { return isDrawn(f) && seriesOf(f, rays) == k; }))
+    if (std::ranges::any_of(drawn, [&](const Figures& f) { return seriesOf(f, rays) == k; }))
       plot.legend(Plot::Key::disc, kSeries[k].color, std::string(kSeries[k].name));
   if (const Figures& f = all[subject.recommended.index]; isDrawn(f)) {
     plot.ring(pointOf(f), kRing);
