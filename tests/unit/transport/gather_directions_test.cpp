@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/spots/highlight_scene.h"
@@ -33,6 +34,22 @@ TEST(GatherDirections, FewLeaveNoneOut) {
     }
     expectMean(sum, 1, 1.05);
   }
+}
+
+// Where nearly all light comes from a bright spot, half of the directions go elsewhere. The light that they
+// find would otherwise count three times, and that noise grows from bounce to bounce between patches.
+TEST(GatherDirections, HalfAreNotAimedAtSpots) {
+  const Traced room(kSunlitRoom, unbiased(2));
+  const Aims spots(room.transport().aims().of<BrightSpots>());
+  const V3d point(2, 2, 3), normal(0, 0, -1);
+  constexpr int kCount = 256;
+  Random random(1);
+  double largest = 0;
+  GatherDirections(spots, point, normal, normal, kCount).draw({kCount, random}, [&](const V3d&, double part) {
+    largest = std::max(largest, part * kCount);
+  });
+  EXPECT_GT(largest, 1.5) << "about half are aimed";
+  EXPECT_LE(largest, 2 + 1e-9);
 }
 
 // Directions that are not aimed all have the same part.
