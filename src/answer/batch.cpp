@@ -12,7 +12,6 @@
 #include <condition_variable>
 #include <limits>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -55,7 +54,7 @@ struct Claim {
 };
 
 // The answers to the records of a claim. Its thread appends answers, and meanwhile another thread may take
-// those already appended. Appending takes no lock unless the memory must grow.
+// those already appended.
 class alignas(64) InWork {
  public:
   // Begins a claim. Called by the thread that answers the claim.
@@ -64,18 +63,14 @@ class alignas(64) InWork {
     claim_ = claim;
   }
   void append(std::string_view bytes) {
-    const size_t size = size_.load(std::memory_order_relaxed);
-    if (size + bytes.size() > room_) grow(size + bytes.size());
-    std::copy(bytes.begin(), bytes.end(), bytes_.get() + size);
-    size_.store(size + bytes.size(), std::memory_order_release);
+    const std::lock_guard lock(mutex_);
+    bytes_ += bytes;
   }
   // Ends the claim and returns the answers that have not been taken.
   std::string finish() {
     const std::lock_guard lock(mutex_);
-    std::string rest = untaken();
     claim_ = kNoLimit;
-    size_ = taken_ = 0;
-    return rest;
+    return untaken();
   }
   // Takes the answers appended so far, if they belong to this claim. Any thread may call it.
   std::string take(uint64_t claim) {
@@ -84,24 +79,16 @@ class alignas(64) InWork {
   }
 
  private:
+  // Keeps the memory for the next claim.
   std::string untaken() {
-    const size_t from = std::exchange(taken_, size_.load(std::memory_order_acquire));
-    return std::string(bytes_.get() + from, taken_ - from);
-  }
-  void grow(size_t least) {
-    auto larger = std::make_unique_for_overwrite<char[]>(std::max(2 * room_, least));
-    std::copy_n(bytes_.get(), size_.load(), larger.get());
-    const std::lock_guard lock(mutex_);
-    bytes_ = std::move(larger);
-    room_ = std::max(2 * room_, least);
+    std::string bytes = bytes_;
+    bytes_.clear();
+    return bytes;
   }
 
   std::mutex mutex_;
   uint64_t claim_ = kNoLimit;
-  size_t taken_ = 0;
-  std::atomic<size_t> size_{0};
-  size_t room_ = 0;
-  std::unique_ptr<char[]> bytes_;
+  std::string bytes_;
 };
 
 struct Finished {

@@ -389,7 +389,7 @@ constexpr OptionEntry kOptions[] = {
      {.line = wavelengthsLine}},
     {{"-lr", "N", "limit reflection", Group::limits, ray<&RayOptions::reflectionLimit>,
       Range{-kLargestInt, kLargestInt}, "reflections"},
-     {.help = "most reflections; up to 0: Russian roulette below -lw"}},
+     {.help = "most reflections; below 1, Russian roulette below -lw"}},
     {{"-lw", "frac", "limit weight", Group::limits, ray<&RayOptions::weightLimit>, kNotNegative},
      {.line = +[](const O& o) { return fmt::format("-lw {:.2e}\t\t\t", o.ray.weightLimit); }}},
     {{"-am", "frac", "max photon search radius", Group::indirect, of<&O::photonRadius>, kNotNegative,

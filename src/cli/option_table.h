@@ -93,8 +93,8 @@ struct OptionExtras {
   std::string_view reason{};  // why it is refused
   bool glued = false;         // its value follows without a blank: -fio -ospec
   bool alsoGlued = false;     // its value may follow without a blank: -te mod, -temod
-  // For a switch whose value only determines what -defaults prints, like rtrace: whether it is in effect,
-  // which is shown in -help and the manual.
+  // Whether a switch is in effect, as -help and the manual say, if that is not its value: like rtrace,
+  // -defaults prints the value.
   bool (*inEffect)(const Options&) = nullptr;
   // The line of -defaults without its remark, if it does not follow from the type; "" for no line.
   std::string (*line)(const Options&) = nullptr;

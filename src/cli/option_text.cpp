@@ -59,6 +59,13 @@ std::string lineOf(const OptionEntry& entry, Options& options) {
   return "";
 }
 
+// What a switch toggles: "back face visibility" of "back face visibility on|back face visibility off".
+std::string_view toggledBy(std::string_view remark) {
+  remark = remark.substr(0, remark.find('|'));
+  if (remark.ends_with(" on")) remark.remove_suffix(3);
+  return remark;
+}
+
 std::string helpLine(const OptionEntry& entry, Options& values) {
   const bool isSwitch = std::holds_alternative<SwitchValue>(entry.value);
   const std::string use = fmt::format("{}{}{}", entry.name,
@@ -69,7 +76,7 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
   const std::string value = shortValue(entry, values);
   return fmt::format("  {:<20} {}{}\n", use,
                      !entry.help.empty() ? entry.help
-                     : isSwitch          ? entry.remark.substr(0, entry.remark.find('|'))
+                     : isSwitch          ? toggledBy(entry.remark)
                                          : entry.remark,
                      entry.support == Support::unused ? " (no effect)"
                      : value.empty()                  ? ""

@@ -108,7 +108,7 @@ class Gathers {
   uint64_t traced_ = 0;
 };
 
-// A small fraction of the average radiance in view of the scene's surfaces (W/sr/m2), or of the irradiance
+// A small fraction of the average radiance that the surfaces of the scene see (W/sr/m2), or of the irradiance
 // that it causes.
 double usualFloor(const Transport& transport) {
   RayOptions few = transport.prepared().options();  // a few paths are enough

@@ -18,10 +18,9 @@ struct Stopping {
   // Those sets cause the remaining bias. Insensitive.
   static constexpr double kMargin = .95;
   // Cap on the ratio between the numbers of sets of the two halves: derived. If a set finds something very
-  // bright, the other half requests many sets. With the cap, the half of the bright set gets some as well,
-  // which reduces the weight of that set sooner. The ratio must exceed 1, because with 1 the number of sets
-  // of a half would depend on its own sets, which is the bias that the halves avoid. 2 is the smallest such
-  // integer.
+  // bright, the other half requests many sets. With the cap, the half of the bright set gets more sets, too,
+  // which reduces the weight of the bright one sooner. With a ratio of 1, the number of sets of a half would
+  // depend on its own sets: the bias that the halves avoid. 2 is the next integer.
   static constexpr size_t kMostRatio = 2;
 };
 

@@ -60,8 +60,8 @@ bool publish(std::atomic<T*>& slot, std::unique_ptr<T> made) {
 struct CoarseSolution::Division {
   int level = 0;            // of the widest cells that are not wider than `side`, or the finest level
   double side = 0;          // largest side that the surroundings allow (world units)
-  int finest = 0;           // level of the finest cells used for rays from nearby
-  bool isEnclosed = false;  // if true, finer patches are not tried in place of hidden ones
+  int finest = 0;           // level of the finest cells that rays from nearby use
+  bool isEnclosed = false;  // whether hidden patches are not replaced by finer ones
 };
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstring>
-#include <vector>
+#include <utility>
 
 namespace rsphere {
 namespace {
@@ -61,14 +61,7 @@ StoredSites::StoredSites(std::unique_ptr<AmbientFile> file) : file_(std::move(fi
   }
 }
 
-StoredSites::~StoredSites() {
-  write(true);
-  for (Fresh* site = fresh_.load(std::memory_order_relaxed); site;) {
-    Fresh* const next = site->next;
-    delete site;
-    site = next;
-  }
-}
+StoredSites::~StoredSites() { write(true); }
 
 const GatheredLight* StoredSites::find(const CellKey& key) const {
   const auto known = known_.find(key);
@@ -77,37 +70,24 @@ const GatheredLight* StoredSites::find(const CellKey& key) const {
 
 void StoredSites::add(const CellKey& key, const GatheredLight& light) {
   if (!file_) return;
-  auto* const site = new Fresh{recordOf(key, light), nullptr};
-  push(site, site);
-  if ((added_.fetch_add(1, std::memory_order_relaxed) + 1) % kBetweenWrites == 0) write(false);
-}
-
-void StoredSites::push(Fresh* first, Fresh* last) {
-  last->next = fresh_.load(std::memory_order_relaxed);
-  while (!fresh_.compare_exchange_weak(last->next, first, std::memory_order_release,
-                                       std::memory_order_relaxed)) {
-  }
+  std::unique_lock lock(adding_);
+  fresh_.push_back(recordOf(key, light));
+  const bool due = ++added_ % kBetweenWrites == 0;
+  lock.unlock();
+  if (due) write(false);
 }
 
 // Appends the new sites to the file. wait: whether to wait for other processes that are writing to it.
 void StoredSites::write(bool wait) {
   if (!file_) return;
-  const std::unique_lock lock(writing_, std::try_to_lock);
-  if (!lock.owns_lock()) return;
-  Fresh* first = fresh_.exchange(nullptr, std::memory_order_acquire);
-  if (!first) return;
-  std::vector<AmbientFile::Record> records;
-  Fresh* last = first;
-  for (Fresh* site = first; site; site = site->next) {
-    records.push_back(site->record);
-    last = site;
-  }
-  if (!file_->add(records, wait)) return push(first, last);
-  while (first) {
-    Fresh* const next = first->next;
-    delete first;
-    first = next;
-  }
+  const std::unique_lock alone(writing_, std::try_to_lock);
+  if (!alone.owns_lock()) return;
+  std::unique_lock lock(adding_);
+  const std::vector<AmbientFile::Record> records = std::exchange(fresh_, {});
+  lock.unlock();
+  if (file_->add(records, wait)) return;
+  lock.lock();
+  fresh_.insert(fresh_.end(), records.begin(), records.end());
 }
 
 }  // namespace rsphere

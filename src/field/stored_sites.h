@@ -2,11 +2,11 @@
 // The sites of an irradiance cache that are stored in an ambient file (-af): sites from earlier runs, and new
 // sites that have not been written yet.
 //
-// Threads: any number may call find() and add() at the same time, and none waits.
-#include <atomic>
+// Threads: any number may call find() and add() at the same time. None waits for the file.
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <vector>
 
 #include "field/ambient_file.h"
 #include "field/hemisphere.h"
@@ -29,22 +29,18 @@ class StoredSites {
   void add(const CellKey& key, const GatheredLight& light);
 
  private:
-  struct Fresh {
-    AmbientFile::Record record;
-    Fresh* next;
-  };
   struct KeyHash {
     size_t operator()(const CellKey& key) const { return key.hash(); }
   };
 
-  void push(Fresh* first, Fresh* last);
   void write(bool wait);
 
   std::unique_ptr<AmbientFile> file_;
   std::unordered_map<CellKey, GatheredLight, KeyHash> known_;
-  std::mutex writing_;                  // only locked by try_lock, so that no thread waits
-  std::atomic<Fresh*> fresh_{nullptr};  // not in the file yet
-  std::atomic<size_t> added_{0};
+  std::mutex writing_;                      // only locked by try_lock, so that no thread waits
+  std::mutex adding_;                       // guards the members that follow
+  std::vector<AmbientFile::Record> fresh_;  // not in the file yet
+  size_t added_ = 0;
 };
 
 }  // namespace rsphere

@@ -6,7 +6,7 @@ namespace rsphere {
 // Writes pictures in the formats of OpenImageIO. The codec is a shared object that is loaded when the first
 // such picture is written. A program linked with OpenImageIO and its dependencies (250 libraries in Debian
 // 12, 750 MB) would take .3 s to start instead of 3 ms, and most runs of rtrace are short. For the same
-// reason, RADIANCE's pictures and PNG are written without it (radiance_picture.h, png_picture.h). The
+// reason, RADIANCE's pictures and PNG are written without it (rgbe.h, picture_formats.h). The
 // functions return an error message, which is empty on success. Thread-safe.
 struct ImageCodec {
   // OpenImageIO's name of the format for a file's name.

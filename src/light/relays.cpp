@@ -10,7 +10,7 @@
 #include "base/frame.h"
 #include "base/overloaded.h"
 #include "light/penumbra.h"
-#include "light/relay_tree.h"
+#include "scene/box_tree.h"
 
 namespace rsphere {
 namespace {
@@ -52,7 +52,7 @@ struct Relay {
 // earlier relays are moved to where the later relays show their images.
 struct Passage {
   Ball ball;  // around it
-  Beam beam;  // contains all points behind the last relay that its light reaches; apex: the ball's center
+  Beam beam;  // contains all points behind the last relay that light from the ball reaches; apex: its center
   std::vector<V3d> hull;  // its convex hull contains the lit part of this element
   bool isFlat = false;    // the hull is a polygon
 };
@@ -153,14 +153,13 @@ class Images {
          ById<LightId, LightSource>& sources)
       : scene_(scene), functions_(functions), sources_(sources) {
     for (const SurfaceId i : scene.outermostIds()) addRelay(i, warn);
-    std::vector<RelayTree::Bounds> bounds;
+    std::vector<Box3d> boxes;
     for (const Relay& relay : relays_) {
-      RelayTree::Bounds& b = bounds.emplace_back();
-      for (const V3d& corner : relay.corners) b.corners.extendBy(corner);
-      b.centers.extendBy(relay.ball.center);
-      b.radius = relay.ball.radius;
+      Box3d& box = boxes.emplace_back();
+      for (const V3d& corner : relay.corners) box.extendBy(corner);
+      largest_ = std::max(largest_, relay.ball.radius);
     }
-    tree_ = RelayTree(bounds);
+    tree_ = BoxTree(std::move(boxes));
   }
 
   // Adds the images of a real source, and images of images, in sequences of up to `relays` relays.
@@ -213,7 +212,12 @@ class Images {
   // The relays that the light of a source may reach after this path.
   std::vector<Reached> relaysReached(LightId source, const Way& way) const {
     std::vector<uint32_t> found;
-    tree_.find([&](const RelayTree::Bounds& bounds) { return mayLight(source, way, bounds); }, found);
+    tree_.any([&](const Box3d& box) { return mayLight(source, way, box); },
+              [&](uint32_t relay) {
+                found.push_back(relay);
+                return false;
+              });
+    std::ranges::sort(found);
     std::vector<Reached> reached;
     for (const uint32_t r : found) {
       // A relay makes no image of its own images, nor of its own surface as a source.
@@ -371,18 +375,18 @@ class Images {
                          scene_.samePlace;
   }
 
-  // A conservative test: false only if lights() is false for every relay within the bounds.
-  bool mayLight(LightId index, const Way& way, const RelayTree::Bounds& bounds) const {
+  // A conservative test: false only if lights() is false for every relay whose corners lie within the box.
+  bool mayLight(LightId index, const Way& way, const Box3d& box) const {
     const LightSource& source = sources_[index];
     if (!source.isVirtual()) return true;
-    const auto excludes = [&](const HalfSpace& lit) { return isOutside(bounds.corners, lit); };
+    const auto excludes = [&](const HalfSpace& lit) { return isOutside(box, lit); };
     if (std::ranges::any_of(way.lit, excludes)) return false;
     const auto [away, offset] = sideLit(index);
-    const V3d middle = bounds.corners.center(), half = bounds.corners.size() / 2;
+    const V3d middle = box.center(), half = box.size() / 2;
     const V3d span(std::abs(away.x), std::abs(away.y), std::abs(away.z));
     const double rounding = kRelayRounding * (middle.length() + half.length() + std::abs(offset));
     if (middle.dot(away) + half.dot(span) - offset + rounding <= scene_.samePlace) return false;
-    Ball ball{bounds.centers.center(), bounds.centers.size().length() / 2 + bounds.radius};
+    Ball ball{middle, half.length() + largest_};
     double sizes = ball.center.length() + ball.radius;
     for (const Passage& passage : way.passages) sizes += passage.ball.center.length();
     ball.radius += kRelayRounding * sizes;
@@ -483,7 +487,8 @@ class Images {
   FunctionScratch scratch_;
   ById<LightId, LightSource>& sources_;
   std::vector<Relay> relays_;
-  RelayTree tree_{{}};
+  BoxTree tree_;                   // of the relays' corners
+  double largest_ = 0;             // radius of a relay's ball
   ById<LightId, size_t> relayOf_;  // of each virtual source: index of its last relay in relays_
 };
 

@@ -456,8 +456,8 @@ void VisibleVertices::from(const V3d& point, FunctionRef<void(size_t begin, size
 double NearLight::closeShare(double distance, double fromEye) const {
   const double close = tuning::LightVertices::kWidth * std::min(meanLength, fromEye);
   const double share = close * close / (distance * distance + close * close);
-  // Places next to the eye are left to rays: glances are dense there, but light vertices are a few
-  // centimeters apart, so that most answers would miss their light.
+  // The light of places next to the eye is left to rays. Glances are dense there, but light vertices are a
+  // few centimeters apart: without a vertex nearby, most answers would miss this light.
   return std::max(0., (share - tuning::LightVertices::kRest) / (1 - tuning::LightVertices::kRest)) *
          (1 - this->share(fromEye));
 }

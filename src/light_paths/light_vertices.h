@@ -69,7 +69,7 @@ struct VisibleVertex {
 class VisibleVertices {
  public:
   void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
-  // Removes all vertices, and reserves memory for their number times a factor.
+  // Removes all vertices, and reserves memory for `times` as many.
   void clearFor(double times);
   // Call this once, after the last vertex has been added.
   void sort(const PreparedScene& prepared);

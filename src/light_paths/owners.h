@@ -16,11 +16,14 @@ enum class Owner : uint8_t {
 };
 
 enum class LightPart : uint8_t {
-  emitted,       // at the end of the ray
-  ofSources,     // of sources that shine on the end, reflected diffusely
-  highlight,     // of these sources, in a rough highlight
-  indirect,      // that arrives after at least one diffuse reflection, or straight through a portal
-  throughPortal  // the light of `indirect` that comes straight, as a ray that leaves by the portal finds it
+  emitted,    // at the end of the ray
+  ofSources,  // of sources that shine on the end, reflected diffusely
+  highlight,  // of these sources, in a rough highlight
+  // Light that arrives after at least one diffuse reflection, or from beyond a portal. Its owner connects the
+  // end of the ray with light vertices and portals.
+  indirect,
+  // The part of `indirect` from beyond a portal, such as a pane, where a ray from the eye leaves through it.
+  throughPortal
 };
 
 // The data of a ray on which its owners depend.

@@ -30,7 +30,7 @@ struct Blocker {
   uint32_t edges = 0;  // 0: only the area hides boxes
   std::array<V3d, kMostVertices> inward{};
   std::array<double, kMostVertices> least{};  // of each edge: inward . p for points p of the edge
-  int axis = -1;                              // that is perpendicular to the polygon's plane; -1: none
+  int axis = -1;                              // index of the axis normal to the polygon's plane; -1: none
 
   // The area, or the polygon alone if it belongs to none. Blockers::wholeOf() looks it up.
   struct Whole {

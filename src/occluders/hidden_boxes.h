@@ -16,7 +16,7 @@
 
 #include "base/function_ref.h"
 #include "occluders/blockers.h"
-#include "occluders/box_tree.h"
+#include "scene/box_tree.h"
 
 namespace rsphere {
 

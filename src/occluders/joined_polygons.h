@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "occluders/box_tree.h"
+#include "scene/box_tree.h"
 #include "trace/tracer.h"
 
 namespace rsphere {

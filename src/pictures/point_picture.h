@@ -81,7 +81,7 @@ class ToneCurve {
 
  private:
   double exposure_;
-  double white_ = 0;  // exposed brightness that becomes 1 by the operator; 0: colors are proportional
+  double white_ = 0;  // exposed brightness that is shown as 1; 0: colors are proportional to radiance
 };
 
 // Converts radiance to screen colors.

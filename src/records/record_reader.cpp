@@ -40,7 +40,9 @@ bool isText(std::string_view bytes) {
 
 std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }
 
-std::optional<double> quotedNumber(std::string_view word) {
+// The number of a word, which may be quoted.
+std::optional<double> numberOf(std::string_view word) {
+  if (word.size() > kLongestWord) return std::nullopt;
   if (word.size() >= 2 && isQuote(word.front()) && word.back() == word.front())
     return rad::parseReal(word.substr(1, word.size() - 2));
   return rad::parseReal(word);
@@ -167,44 +169,31 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
     for (; at < stop && isSpace(*at); ++at)
       if (*at == '\n') newLine();
     begin_ = static_cast<size_t>(at - block_.data());
-    double x = 0;
-    const char* next = at;
-    if (at < stop) {
-      const char* digits = at + (*at == '+');
-      const char* start = digits + (digits == at && *at == '-');
-      if (start < stop && startsNumber(*start)) {
-        const auto [end, error] = rad::readReal(digits, stop, x);
-        if (error == std::errc() && end < stop && isSpace(*end)) next = end;
-      }
+    const char* const next = std::find_if(at, stop, isSpace);
+    const std::string_view word(at, static_cast<size_t>(next - at));
+    if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
+      // Return the records that have arrived before waiting for more.
+      if (count > 0 || interrupted_) break;
+      refill();
+      if (interrupted_) break;
+      continue;
     }
-    if (next == at) {  // not a plain number, or not yet complete
-      while (next < stop && !isSpace(*next)) ++next;
-      const std::string_view word(at, static_cast<size_t>(next - at));
-      if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
-        // Return the records that have arrived before waiting for more.
-        if (count > 0 || interrupted_) break;
-        refill();
-        if (interrupted_) break;
-        continue;
-      }
-      if (word.empty()) {
-        if (partialCount_ == 0 || count > 0) break;
-        throw rad::Error(fmt::format("{}:{}: expected {} {}, got {}", name_, lastNumberLine_, perRecord_,
-                                     counted(perRecord_), partialCount_));
-      }
-      if (count == 0 && records_ == 0 && partialCount_ == 0 && word.starts_with(rad::kByteOrderMark)) {
-        begin_ += rad::kByteOrderMark.size();
-        continue;
-      }
-      const std::optional<double> slow = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
-      if (!slow) {
-        if (count > 0) break;
-        malformed(word);
-      }
-      x = *slow;
+    if (word.empty()) {
+      if (partialCount_ == 0 || count > 0) break;
+      throw rad::Error(fmt::format("{}:{}: expected {} {}, got {}", name_, lastNumberLine_, perRecord_,
+                                   counted(perRecord_), partialCount_));
+    }
+    if (count == 0 && records_ == 0 && partialCount_ == 0 && word.starts_with(rad::kByteOrderMark)) {
+      begin_ += rad::kByteOrderMark.size();
+      continue;
+    }
+    const std::optional<double> x = numberOf(word);
+    if (!x) {
+      if (count > 0) break;
+      malformed(word);
     }
     begin_ = static_cast<size_t>(next - block_.data());
-    partial_[partialCount_++] = x;
+    partial_[partialCount_++] = *x;
     lastNumberLine_ = line_;
     ++onLine_;
     if (partialCount_ == perRecord_) {
@@ -223,14 +212,12 @@ void RecordReader::readLine(std::string_view line, bool whole) {
   for (size_t at = 0;;) {
     while (at < line.size() && isSpace(line[at])) ++at;
     if (at == line.size()) break;
-    size_t end = at;
-    while (end < line.size() && !isSpace(line[end])) ++end;
-    const std::string_view word = line.substr(at, end - at);
-    const std::optional<double> x = word.size() <= kLongestWord ? quotedNumber(word) : std::nullopt;
+    const std::string_view word(line.begin() + at, std::find_if(line.begin() + at, line.end(), isSpace));
+    const std::optional<double> x = numberOf(word);
     if (!x) malformed(word);
     if (count < perRecord_) partial_[count] = *x;
     ++count;
-    at = end;
+    at += word.size();
   }
   if (count == perRecord_ && whole) return;
   const std::string got = whole ? std::to_string(count) : fmt::format("more than {} bytes", line.size());

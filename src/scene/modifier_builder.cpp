@@ -12,7 +12,7 @@ using rad::Type;
 
 namespace {
 
-// Stores the index of its modifier in a material with functions.
+// If a material has functions, stores the index of the modifier that they belong to.
 void setFunctions(Material& material, ModifierId index) {
   std::visit(
       [index](auto& kind) {

@@ -59,10 +59,10 @@ class DirectedScattering {
     double finest = 0, coarsest = 0;  // 0: no data
   };
   virtual Resolution resolution(const V3d& view) const = 0;
-  // Prepares albedo() and sample() for views with turned(): views from the side without data, which use the
-  // data of the other side with the view and the other direction exchanged. Returns false for isotropic
-  // tensor trees. They store one angle less, so that exchanged directions do not determine the scattering;
-  // the albedo of these views is then 0.
+  // Prepares albedo() and sample() for views for which turned() is true: they come from the side that has no
+  // data, and use the data of the other side with the two directions exchanged. Returns false for isotropic
+  // tensor trees, for which the albedo of these views is 0: they store one angle less, so that exchanged
+  // directions do not determine the scattering.
   virtual bool prepareTurned() = 0;
   // The projected solid angle (sr) of the smallest cell, and the largest albedo of any view.
   double finestCell() const { return finestCell_; }

@@ -96,7 +96,8 @@ class SurfaceFunctions::Maker {
         arguments_(scene_.description, modifier_.decoded) {}
 
   std::unique_ptr<Function> make() {
-    return std::visit([&](const auto& read) { return makeFrom(read); }, *modifier_.arguments);
+    std::visit([&](const auto& read) { makeFrom(read); }, *modifier_.arguments);
+    return std::move(made_);
   }
 
  private:
@@ -173,25 +174,24 @@ class SurfaceFunctions::Maker {
     return r;
   }
 
-  void use(Function& f, const ProgramPointer& program) const { f.needs |= program->inputs(); }
+  void use(const ProgramPointer& program) const { made_->needs |= program->inputs(); }
 
-  ProgramPointer compiled(Function& f, std::string_view file,
-                          std::span<const std::string_view> expressions) const {
+  ProgramPointer compiled(std::string_view file, std::span<const std::string_view> expressions) const {
     const std::vector<std::string> texts(expressions.begin(), expressions.end());
     calc::Request r = request(file);
     r.expressions = texts;
     auto program = functions_.library_.compile(r);
-    use(f, program);
+    use(program);
     return program;
   }
 
   // The functions that correct the values of data or of a picture. passed: number of values passed to each.
-  std::vector<Correction> corrections(Function& f, std::string_view file, const Words& names,
+  std::vector<Correction> corrections(std::string_view file, const Words& names,
                                       const std::vector<int>& passed) const {
     std::vector<Correction> all;
     for (size_t i = 0; i < names.size(); ++i) {
       all.push_back({functions_.library_.compileCall(request(file), names[i], passed[i]), passed[i] > 1});
-      use(f, all.back().program);
+      use(all.back().program);
     }
     return all;
   }
@@ -205,26 +205,17 @@ class SurfaceFunctions::Maker {
     return passed;
   }
 
-  // transform: the words of a transform; may be empty.
-  void setTransform(Function& f, const Words& transform) const {
-    if (transform.empty()) return;
-    f.moved = true;
-    f.placement = readPlacement(arguments_, transform);
+  void makeFrom(const FunctionArguments& read) const {
+    Values values{compiled(read.file.name, read.expressions)};
+    finish(std::move(values), read.expressions.size(), read.file.transform);
   }
 
-  std::unique_ptr<Function> makeFrom(const FunctionArguments& read) const {
-    auto f = std::make_unique<Function>();
-    Values values{compiled(*f, read.file.name, read.expressions)};
-    return finish(std::move(f), std::move(values), read.expressions.size(), read.file.transform);
-  }
-
-  std::unique_ptr<Function> makeFrom(const DataArguments& read) const {
+  void makeFrom(const DataArguments& read) const {
     if (arguments_.type() == Type::specdata) return spectralData(read);
     const std::vector<int> passed = arguments_.type() == Type::colordata
                                         ? colorsPassed(read.file, read.corrections)
                                     : arguments_.type() == Type::texdata ? std::vector{3, 3, 3}
                                                                          : std::vector{1};
-    auto f = std::make_unique<Function>();
     Data d;
     for (const std::string_view name : read.tables) d.tables.push_back(table(name));
     const size_t dimensions = d.tables[0]->dimensions();
@@ -232,39 +223,33 @@ class SurfaceFunctions::Maker {
       if (t->dimensions() != dimensions) fail("the data files differ in their number of dimensions");
     if (read.rest.size() < dimensions) tooFewCoordinates(read.rest, dimensions, "");
     const auto rest = std::span(read.rest);
-    d.coordinates = compiled(*f, read.file, rest.first(dimensions));
-    d.corrections = corrections(*f, read.file, read.corrections, passed);
-    return finish(std::move(f), std::move(d), read.corrections.size(),
-                  transformAmong(rest.subspan(dimensions)));
+    d.coordinates = compiled(read.file, rest.first(dimensions));
+    d.corrections = corrections(read.file, read.corrections, passed);
+    finish(std::move(d), read.corrections.size(), transformAmong(rest.subspan(dimensions)));
   }
 
-  std::unique_ptr<Function> makeFrom(const PictureArguments& read) const {
+  void makeFrom(const PictureArguments& read) const {
     if (arguments_.type() == Type::specpict) return spectralImage(read);
     const std::vector<int> passed = arguments_.type() == Type::colorpict
                                         ? colorsPassed(read.file.name, read.corrections)
                                         : std::vector{3};
-    auto f = std::make_unique<Function>();
     Image i;
-    i.coordinates = compiled(*f, read.file.name, read.coordinates);
-    i.corrections = corrections(*f, read.file.name, read.corrections, passed);
+    i.coordinates = compiled(read.file.name, read.coordinates);
+    i.corrections = corrections(read.file.name, read.corrections, passed);
     i.picture = picture(functions_.pictures_, read.picture);
-    return finish(std::move(f), std::move(i), read.corrections.size(), read.file.transform);
+    finish(std::move(i), read.corrections.size(), read.file.transform);
   }
 
   // ---- spectra
 
-  std::unique_ptr<Function> constant(Color color) const {
-    return finish(std::make_unique<Function>(), ConstantSpectrum{std::move(color)}, 0, {});
-  }
-  std::unique_ptr<Function> constant(std::span<const double> values, double first, double last) const {
-    return constant(functions_.colorOf(betweenMiddles(values, first, last)));
+  void constant(Color color) const { finish(ConstantSpectrum{std::move(color)}, 0, {}); }
+  void constant(std::span<const double> values, double first, double last) const {
+    constant(functions_.colorOf(betweenMiddles(values, first, last)));
   }
 
-  std::unique_ptr<Function> makeFrom(const SpectrumArguments& read) const {
-    return constant(read.values, read.first, read.last);
-  }
+  void makeFrom(const SpectrumArguments& read) const { constant(read.values, read.first, read.last); }
 
-  std::unique_ptr<Function> makeFrom(const SpectrumFileArguments& read) const {
+  void makeFrom(const SpectrumFileArguments& read) const {
     const auto data = table(read.data);
     if (data->dimensions() != 1)
       fail(fmt::format("expected data of 1 dimension, the wavelength, got {}", data->dimensions()));
@@ -276,14 +261,13 @@ class SurfaceFunctions::Maker {
       values[i] = data->value({&wavelength, 1});
     }
     if (d.even) return constant(values, d.first, d.last);
-    return constant(functions_.colorOf(SpectralCurve{wavelengths, values}));
+    constant(functions_.colorOf(SpectralCurve{wavelengths, values}));
   }
 
-  std::unique_ptr<Function> makeFrom(const SpectralFunctionArguments& read) const {
-    auto f = std::make_unique<Function>();
+  void makeFrom(const SpectralFunctionArguments& read) const {
     SpectralFunction s;
     s.program = functions_.library_.compileCall(request(read.file.name), read.function, 1);
-    use(*f, s.program);
+    use(s.program);
     const SpectralSampling* sampling = functions_.sampling_;
     const WavelengthLimits& limits = functions_.limits_;
     s.longest = std::min(read.longest, limits.longest);
@@ -295,10 +279,10 @@ class SurfaceFunctions::Maker {
       s.step = std::max(range / kMostBands, band / 4);
       s.bins = std::max(size_t{1}, static_cast<size_t>(range / s.step + .1));
     }
-    return finish(std::move(f), std::move(s), 0, read.file.transform);
+    finish(std::move(s), 0, read.file.transform);
   }
 
-  std::unique_ptr<Function> spectralData(const DataArguments& read) const {
+  void spectralData(const DataArguments& read) const {
     SpectralData s;
     s.table = table(read.tables[0]);
     if (s.table->dimensions() < 2)
@@ -311,37 +295,33 @@ class SurfaceFunctions::Maker {
     s.unevenWavelengths = unevenWavelengths(*s.table, coordinates);
     if (read.rest.size() < coordinates) tooFewCoordinates(read.rest, coordinates, " but the wavelength");
     const auto rest = std::span(read.rest);
-    return corrected(std::move(s), read.file, rest.first(coordinates), read.corrections[0],
-                     transformAmong(rest.subspan(coordinates)));
+    corrected(std::move(s), read.file, rest.first(coordinates), read.corrections[0],
+              transformAmong(rest.subspan(coordinates)));
   }
 
-  std::unique_ptr<Function> spectralImage(const PictureArguments& read) const {
+  void spectralImage(const PictureArguments& read) const {
     SpectralData s;
     s.picture = picture(functions_.spectralPictures_, read.picture);
     s.count = s.picture->components();
     const double half = (s.picture->last() - s.picture->first()) / static_cast<double>(s.count) / 2;
     s.firstWavelength = s.picture->first() + half;
     s.lastWavelength = s.picture->last() - half;
-    return corrected(std::move(s), read.file.name, read.coordinates, read.corrections[0],
-                     read.file.transform);
+    corrected(std::move(s), read.file.name, read.coordinates, read.corrections[0], read.file.transform);
   }
 
-  std::unique_ptr<Function> corrected(SpectralData s, std::string_view file,
-                                      std::span<const std::string_view> coordinates,
-                                      std::string_view correction, const Words& transform) const {
-    auto f = std::make_unique<Function>();
-    s.coordinates = compiled(*f, file, coordinates);
+  void corrected(SpectralData s, std::string_view file, std::span<const std::string_view> coordinates,
+                 std::string_view correction, const Words& transform) const {
+    s.coordinates = compiled(file, coordinates);
     s.correction = functions_.library_.compileCall(request(file), correction, 2);
-    use(*f, s.correction);
-    return finish(std::move(f), std::move(s), 0, transform);
+    use(s.correction);
+    finish(std::move(s), 0, transform);
   }
 
   // ---- text
 
-  std::unique_ptr<Function> makeFrom(const TextArguments& read) const {
-    auto f = std::make_unique<Function>();
+  void makeFrom(const TextArguments& read) const {
     const size_t channels = read.foreground.size();
-    f->results = std::max<size_t>(channels, 1);
+    made_->results = std::max<size_t>(channels, 1);
     const V3d &r = read.right, &d = read.down, n = d.cross(r);
     const double n2 = n.length2();
     // The motion vectors are parallel or too short. RADIANCE compares the length of n x d with 1e-12.
@@ -359,106 +339,95 @@ class SurfaceFunctions::Maker {
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
     std::copy(read.background.begin(), read.background.end(), background.begin());
-    f->what.emplace<Text>(Text{font, rad::TextLayout(*font, lines, read.spacing), read.anchor,
-                               n.cross(d) / n2, r.cross(n) / n2, foreground, background});
-    return f;
+    made_->what.emplace<Text>(Text{font, rad::TextLayout(*font, lines, read.spacing), read.anchor,
+                                   n.cross(d) / n2, r.cross(n) / n2, foreground, background});
   }
 
   // ---- materials
 
-  std::unique_ptr<Function> makeFrom(const OneOf<AnisotropicArguments, AshikhminArguments> auto& read) const {
-    auto f = std::make_unique<Function>();
+  void makeFrom(const OneOf<AnisotropicArguments, AshikhminArguments> auto& read) const {
     Scatterer s;
-    s.orientation = compiled(*f, read.orientation.file.name, read.orientation.direction);
-    return finish(std::move(f), std::move(s), read.orientation.file);
+    s.orientation = compiled(read.orientation.file.name, read.orientation.direction);
+    finish(std::move(s), read.orientation.file);
   }
 
   // A call of a function by name. Its last four arguments are the direction to a source and the solid angle
   // of the source; `before` is the number of arguments before these.
-  ProgramPointer called(Function& f, std::string_view file, std::string_view function, int before) const {
+  ProgramPointer called(std::string_view file, std::string_view function, int before) const {
     auto program = functions_.library_.compileCall(request(file), function, before + 4);
-    use(f, program);
+    use(program);
     return program;
   }
 
-  std::unique_ptr<Function> makeFrom(const FunctionScattererArguments& read) {
+  void makeFrom(const FunctionScattererArguments& read) {
     available_ = calc::kMaterialInputs;
-    auto f = std::make_unique<Function>();
     Scatterer s;
-    s.distribution[0] = called(*f, read.file.name, read.distribution, 0);
-    return finish(std::move(f), std::move(s), read.file);
+    s.distribution[0] = called(read.file.name, read.distribution, 0);
+    finish(std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> makeFrom(const DataScattererArguments& read) {
+  void makeFrom(const DataScattererArguments& read) {
     available_ = calc::kMaterialInputs;
-    auto f = std::make_unique<Function>();
     Scatterer s;
     s.table = table(read.table);
     for (size_t i = 0; i < s.table->dimensions(); ++i) {
       if (i >= read.rest.size()) tooFewCoordinates(read.rest, s.table->dimensions(), "");
-      s.coordinates.push_back(called(*f, read.file.name, read.rest[i], 0));
+      s.coordinates.push_back(called(read.file.name, read.rest[i], 0));
     }
-    s.distribution[0] = called(*f, read.file.name, read.correction, 1);
-    return finish(std::move(f), std::move(s), read.file);
+    s.distribution[0] = called(read.file.name, read.correction, 1);
+    finish(std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> makeFrom(const BrtdArguments& read) {
+  void makeFrom(const BrtdArguments& read) {
     available_ = calc::kMaterialInputs;
-    auto f = std::make_unique<Function>();
     Scatterer s;
-    s.reflection = compiled(*f, read.file.name, read.reflection);
-    s.transmission = compiled(*f, read.file.name, read.transmission);
+    s.reflection = compiled(read.file.name, read.reflection);
+    s.transmission = compiled(read.file.name, read.transmission);
     const Words& names = read.distribution;
     s.gray = names[0] == names[1] && names[1] == names[2];
     for (size_t i = 0; i < (s.gray ? 1 : 3); ++i)
-      if (names[i] != "0") s.distribution[i] = called(*f, read.file.name, names[i], 0);
-    return finish(std::move(f), std::move(s), read.file);
+      if (names[i] != "0") s.distribution[i] = called(read.file.name, names[i], 0);
+    finish(std::move(s), read.file);
   }
 
-  std::unique_ptr<Function> makeFrom(const WgmdArguments& read) {
+  void makeFrom(const WgmdArguments& read) {
     available_ = (uint64_t{1} << calc::CrP) - 1;
-    auto f = std::make_unique<Function>();
     const FunctionFile& file = read.orientation.file;
     Scatterer s;
-    s.reflection = compiled(*f, file.name, read.reflected.shape);
-    s.transmission = compiled(*f, file.name, read.transmitted.shape);
-    s.orientation = compiled(*f, file.name, read.orientation.direction);
-    return finish(std::move(f), std::move(s), file);
+    s.reflection = compiled(file.name, read.reflected.shape);
+    s.transmission = compiled(file.name, read.transmitted.shape);
+    s.orientation = compiled(file.name, read.orientation.direction);
+    finish(std::move(s), file);
   }
 
-  std::unique_ptr<Function> makeFrom(const BsdfArguments& read) const {
-    auto f = std::make_unique<Function>();
+  void makeFrom(const BsdfArguments& read) const {
     Scatterer s;
     s.bsdf = shared(functions_.bsdfs_, read.data, [&] {
       const std::string path = find(read.data, "BSDF");
       return BsdfData(rad::BsdfFile::parse(contentsOf(path, "BSDF"), path, functions_.warn_), path,
                       functions_.warn_);
     });
-    s.orientation = compiled(*f, read.up.file.name, read.up.direction);
-    if (read.thickness) s.thickness = compiled(*f, read.up.file.name, std::span(&*read.thickness, 1));
-    return finish(std::move(f), std::move(s), read.up.file);
+    s.orientation = compiled(read.up.file.name, read.up.direction);
+    if (read.thickness) s.thickness = compiled(read.up.file.name, std::span(&*read.thickness, 1));
+    finish(std::move(s), read.up.file);
   }
 
-  std::unique_ptr<Function> makeFrom(const PrismArguments& read) {
+  void makeFrom(const PrismArguments& read) {
     available_ = calc::kPrismInputs;
-    auto f = std::make_unique<Function>();
     Redirector r;
-    for (size_t i = 0; i < read.images.size(); ++i)
-      r.programs[i] = compiled(*f, read.file.name, read.images[i]);
-    return finish(std::move(f), std::move(r), 1, read.file.transform);
+    for (size_t i = 0; i < read.images.size(); ++i) r.programs[i] = compiled(read.file.name, read.images[i]);
+    finish(std::move(r), 1, read.file.transform);
   }
 
-  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, Scatterer s, const FunctionFile& file) const {
-    return finish(std::move(f), std::move(s), 3, file.transform);
-  }
-  // what: one of Function::what.
+  void finish(Scatterer s, const FunctionFile& file) const { finish(std::move(s), 3, file.transform); }
+  // what: one of Function::what. transform: the words of a transform; may be empty.
   template <class What>
-  std::unique_ptr<Function> finish(std::unique_ptr<Function> f, What what, size_t results,
-                                   const Words& transform) const {
-    f->results = results;
-    f->what = std::move(what);
-    setTransform(*f, transform);
-    return f;
+  void finish(What what, size_t results, const Words& transform) const {
+    made_->results = results;
+    made_->what = std::move(what);
+    if (transform.empty()) return;
+    made_->moved = true;
+    made_->placement = readPlacement(arguments_, transform);
   }
 
   const SurfaceFunctions& functions_;
@@ -466,6 +435,7 @@ class SurfaceFunctions::Maker {
   const Modifier& modifier_;
   PrimitiveArguments arguments_;
   uint64_t available_ = calc::kPointInputs;
+  std::unique_ptr<Function> made_ = std::make_unique<Function>();
 };
 
 std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const rad::FileAccess& access) {
@@ -524,6 +494,7 @@ void SurfaceFunctions::setInputs(const Function& f, const FunctionPoint& at, Fun
   const Placement* placement = placementOf(f, at, scratch);
   const double scale = placement ? placement->toInner.scale : 1;
   const auto direction = [&](const V3d& v) { return placement ? placement->directionToInner(v) : v; };
+  scratch.state.faults = 0;
   if (needs & bits(Dx, 3)) put(&in[Dx], direction(at.direction));
   if (needs & bits(Nx, 3)) put(&in[Nx], direction(at.normal));
   if (needs & bits(Px, 3)) put(&in[Px], placement ? placement->toInner.point(at.point) : at.point);
@@ -573,7 +544,6 @@ bool SurfaceFunctions::evaluate(ModifierId modifier, const Function& f, const Fu
   setInputs(f, at, scratch);
   calc::Point point{scratch.inputs, realsOf(modifier), {}};
   calc::State& state = scratch.state;
-  state.faults = 0;
   const auto correct = [&](const std::vector<Correction>& corrections, const double* values) {
     for (size_t i = 0; i < corrections.size(); ++i) {
       point.arguments =
@@ -630,7 +600,6 @@ Color SurfaceFunctions::spectralPattern(ModifierId modifier, const Function& f, 
   if (const auto* constant = std::get_if<ConstantSpectrum>(&f.what)) return constant->color;
   setInputs(f, at, scratch);
   calc::Point point{scratch.inputs, realsOf(modifier), {}};
-  scratch.state.faults = 0;
   if (const auto* function = std::get_if<SpectralFunction>(&f.what)) {
     if (function->bins == 0) {
       warn(modifier, "its wavelengths are outside the limits of the spectrum (-cw): it is ignored");
@@ -731,7 +700,6 @@ std::array<double, 3> SurfaceFunctions::three(ModifierId modifier, ProgramPointe
                                               const FunctionPoint& at, FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   setInputs(f, at, scratch);
-  scratch.state.faults = 0;
   std::array<double, 3> v{};
   (std::get<Scatterer>(f.what).*program)->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state, v);
   return computed(modifier, scratch, v) ? v : std::array<double, 3>{};
@@ -751,7 +719,6 @@ double SurfaceFunctions::thickness(ModifierId modifier, const FunctionPoint& at,
                                    FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   setInputs(f, at, scratch);
-  scratch.state.faults = 0;
   const double own =
       std::get<Scatterer>(f.what).thickness->evaluate({scratch.inputs, realsOf(modifier), {}}, scratch.state);
   if (!computed(modifier, scratch, {&own, 1})) return 0;
@@ -786,7 +753,6 @@ Color SurfaceFunctions::distribution(ModifierId modifier, const FunctionPoint& a
   const Scatterer& s = std::get<Scatterer>(f.what);
   setInputs(f, at, scratch);
   calc::State& state = scratch.state;
-  state.faults = 0;
   const Placement* placement = placementOf(f, at, scratch);
   const V3d own = placement ? placement->directionToInner(toSource) : toSource;
   std::array<double, 5> arguments{0, own.x, own.y, own.z, solidAngle};
@@ -812,7 +778,6 @@ SurfaceFunctions::Redirection SurfaceFunctions::redirection(ModifierId modifier,
                                                             FunctionScratch& scratch) const {
   const Function& f = ready(modifier);
   setInputs(f, at, scratch);
-  scratch.state.faults = 0;
   std::array<double, 4> v{};
   std::get<Redirector>(f.what).programs[static_cast<size_t>(image)]->evaluate(
       {scratch.inputs, realsOf(modifier), {}}, scratch.state, v);

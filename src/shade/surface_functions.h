@@ -216,8 +216,9 @@ class SurfaceFunctions {
   // The placement of the function's coordinates in the world; null if these are world coordinates. scratch:
   // stores the result if placements must be composed.
   const Placement* placementOf(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // Prepares an evaluation: sets inputs, and forgets earlier faults.
   void setInputs(const Function& f, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // Whether all values are finite and no fault was recorded since the last reset; otherwise warns.
+  // Whether all values are finite and no fault was recorded since setInputs(); otherwise warns.
   bool computed(ModifierId modifier, const FunctionScratch& scratch, std::span<const double> values) const;
   std::array<double, 3> three(ModifierId modifier, ProgramPointer Scatterer::*program,
                               const FunctionPoint& at, FunctionScratch& scratch) const;

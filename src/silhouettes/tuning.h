@@ -58,8 +58,8 @@ struct SpecialObjects {
   // its reflections are faint. A pane gets 64 directions per sr, so that even the largest gets only a few
   // hundred. With the irregularity of a mirror it would take all directions. Insensitive.
   static constexpr double kPane = .002;
-  // Less irregular objects are treated as diffuse: derived. At this threshold they would get 16 directions
-  // per sr, a tenth of the density of the default base directions.
+  // Objects whose radiance varies less with direction than this are treated as diffuse: derived. At this
+  // threshold they would get 16 directions per sr, a tenth of the density of the default base directions.
   static inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
   // Up to this number of special objects, looking at each of them takes less time than finding out which are
   // hidden (HiddenBoxes). Measured.

@@ -34,27 +34,6 @@ constexpr std::array<std::uint16_t, 4 * 256> kCurve = [] {
   return table;
 }();
 
-// A stable radix sort, least significant digit first. The lower half of a key is the index of a direction.
-void radixSort(OrderScratch& scratch) {
-  auto &keys = scratch.keys, &spare = scratch.spare;
-  spare.resize(keys.size());
-  constexpr int kDigit = 9;
-  static_assert(3 + 2 * kBits <= 3 * kDigit);
-  for (int shift = 32; shift < 32 + 3 * kDigit; shift += kDigit) {
-    std::array<std::uint32_t, 1 << kDigit> start{};
-    const auto digit = [shift](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };
-    for (std::uint64_t key : keys) ++start[digit(key)];
-    std::uint32_t before = 0;
-    for (std::uint32_t& s : start) {
-      const std::uint32_t count = s;
-      s = before;
-      before += count;
-    }
-    for (std::uint64_t key : keys) spare[start[digit(key)]++] = key;
-    keys.swap(spare);
-  }
-}
-
 }  // namespace
 
 std::uint32_t placeOnCurve(const V3d& d) {
@@ -76,11 +55,12 @@ std::uint32_t placeOnCurve(const V3d& d) {
 }
 
 void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order) {
+  // The lower half of a key is the index of the site.
   scratch.keys.resize(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     scratch.keys[i] = std::uint64_t{placeOnCurve(sites[i].at)} << 32 | i;
   }
-  radixSort(scratch);
+  std::ranges::sort(scratch.keys);
   order.resize(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) order[i] = static_cast<std::uint32_t>(scratch.keys[i]);
 }

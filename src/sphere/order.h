@@ -17,7 +17,7 @@ std::uint32_t placeOnCurve(const V3d& direction);
 
 // Sorts the indices 0..n-1 of the sites along the curve. scratch keeps its memory between calls.
 struct OrderScratch {
-  std::vector<std::uint64_t> keys, spare;
+  std::vector<std::uint64_t> keys;
   std::vector<std::uint32_t> order;
 };
 void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order);

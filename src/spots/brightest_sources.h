@@ -3,7 +3,7 @@
 // lamps of other storeys are far away.
 #include <vector>
 
-#include "occluders/box_tree.h"
+#include "scene/box_tree.h"
 #include "spots/source_parts.h"
 
 namespace rsphere {

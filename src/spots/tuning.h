@@ -59,7 +59,8 @@ struct Highlights {
   // Rays are aimed at a highlight if otherwise, hit only by chance, it would add more than this multiple of
   // the squared mean radiance to the variance of a direction. Measured in an open-plan office with 50 rough
   // balls and 51 rough legs (-ab 1 -ad 64), at three points: at a desk, above a desk, and at the ceiling.
-  // With .2, only the first improves.
+  // With .2, only the first improves. Without aiming, single sensors beside cylinders are wrong by a factor
+  // (tests/bench/mechanisms/runs/2026-11-29-rays.txt).
   //          noise                   work relative to no aiming
   //   none   2.61%  .92%  2.84%     1     1     1
   //   .1      .44%  .49%  2.84%     1.12  1.03  1.00

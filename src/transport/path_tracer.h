@@ -40,11 +40,11 @@ class PathTracer {
   TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                           const PathRequest& request = {});
 
-  // Radiance (W/sr/m2) along a ray, with at most one further diffuse bounce, for which one direction is
-  // sampled.
+  // A rough estimate of the radiance (W/sr/m2) along a ray, with at most one further diffuse bounce. Each
+  // gather sends one ray, and few light sources are sampled.
   Radiance glimpse(const V3d& origin, const V3d& direction, uint64_t seed);
 
-  // The light beyond portals: the functions of outdoor_light.h. Each gather sends one ray.
+  // The light beyond portals: OutdoorRadiance and OutdoorParts (sky_emission.h). Each gather sends one ray.
   Radiance outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed);
   void outdoors(const V3d& origin, const V3d& direction, int bounces, uint64_t seed,
                 std::vector<Radiance>& parts);

@@ -282,6 +282,13 @@ TEST(Help, HasALineForEveryOptionThatWorks) {
         << entry.name;
 }
 
+// Not "limit distance on [off]", as -defaults would print it for a switch that is on.
+TEST(Help, NamesSwitchesByWhatTheyToggle) {
+  const std::string text = helpText(parse({"rsphere", "-help"}));
+  EXPECT_NE(text.find(" limit distance [off]\n"), text.npos);
+  EXPECT_NE(text.find(" separate answers for each goal or lamp [off]\n"), text.npos);
+}
+
 TEST(Help, HasTwelveUsualOptionsOfEachMode) {
   const auto options = [](const std::string& text) {
     size_t lines = 0;

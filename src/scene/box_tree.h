@@ -24,9 +24,13 @@ struct BoxTree {
   explicit BoxTree(std::vector<Box3d> all);
 
   const Box3d& boxOf(size_t place) const { return boxes[order[place]]; }
-  // Calls use() with the index of each box that intersects `box`, until use() returns true. Returns whether
-  // it has returned true.
-  bool any(const Box3d& box, FunctionRef<bool(uint32_t)> use) const;
+  // Calls use() with the index of each box, until use() returns true. Returns whether it has returned true. A
+  // box is left out if mayMeet() is false for it, or for a box that contains it and others.
+  bool any(FunctionRef<bool(const Box3d&)> mayMeet, FunctionRef<bool(uint32_t)> use) const;
+  // The boxes that intersect `box`.
+  bool any(const Box3d& box, FunctionRef<bool(uint32_t)> use) const {
+    return any([&](const Box3d& other) { return other.intersects(box); }, use);
+  }
 
  private:
   size_t makeNode(size_t begin, size_t end);

@@ -1,4 +1,4 @@
-#include "occluders/box_tree.h"
+#include "scene/box_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ size_t BoxTree::makeNode(size_t begin, size_t end) {
   return index;
 }
 
-bool BoxTree::any(const Box3d& box, FunctionRef<bool(uint32_t)> use) const {
+bool BoxTree::any(FunctionRef<bool(const Box3d&)> mayMeet, FunctionRef<bool(uint32_t)> use) const {
   if (nodes.empty()) return false;
   std::array<size_t, 64> open;  // a tree of 2^32 boxes has fewer levels
   size_t count = 0;
@@ -39,7 +39,7 @@ bool BoxTree::any(const Box3d& box, FunctionRef<bool(uint32_t)> use) const {
   while (count > 0) {
     const size_t index = open[--count];
     const Node& node = nodes[index];
-    if (!node.box.intersects(box)) continue;
+    if (!mayMeet(node.box)) continue;
     if (node.second == 0) {
       if (use(order[node.begin])) return true;
     } else {
