@@ -12,6 +12,7 @@ from ..progress import PROGRESS
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once
 OTHERS = 2  # layouts of equal watts that are looked for
+TIE = 0.005  # of the watts as dimmed, which are equal within it
 ELSEWHERE = 0.25  # of the luminaires: how many of another layout hang where none of the first do
 EVEN = 1e-3  # of a spacing: rows are as far apart as others
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
@@ -24,7 +25,7 @@ class Layout:
     bound: float  # no layout takes less (W); 0 if that is not known
     misses: list  # (scene, goal, by what share of its size), if not all goals are met
     proven: bool  # that these goals cannot all be met; otherwise the time was too short
-    others: object  # function of seconds: other layouts of equal watts, as indices of candidates
+    others: object  # function of seconds: other layouts of equal watts, as indices of candidates and levels of each scene
 
 
 class Program:
@@ -312,12 +313,14 @@ class Solver:
         best.fun = float(np.dot(self.program.cost, best.x))
         return self.improved(best, time.monotonic() + seconds, 0.0, 0.0)
 
-    def others(self, best, seconds):
-        """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere."""
+    def others(self, best, seconds, dimmed):
+        """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere. dimmed: its watts as dimmed, of all scenes."""
         known, end = [np.flatnonzero(best.x[self.x] > 0.5)], time.monotonic() + seconds
         while len(known) <= OTHERS and time.monotonic() < end:
             self.build()
             self.program.constrain(self.x, self.watts, 0, float(self.watts[known[0]].sum()) + 1e-6)
+            if self.design.dims():
+                self.program.constrain(np.concatenate(self.levels), np.tile(self.watts, len(self.levels)), 0, (1 + TIE) * dimmed)
             for here in known:
                 self.program.constrain(self.x[here], np.ones(len(here)), 0, len(here) - max(1, round(ELSEWHERE * len(here))))
             found = self.program.solve(max(end - time.monotonic(), 0.1), 1.0)
@@ -346,8 +349,17 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e
     x = solver.x
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
-    levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
-    others = (lambda more: []) if solver.elastic else (lambda more: solver.others(found, more))  # elastic ones miss any goal
+
+    def dim_all(chosen):
+        return [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
+
+    levels = dim_all(chosen)
+
+    def others(more):
+        if solver.elastic:
+            return []  # they miss any goal
+        return [(other, dim_all(other)) for other in solver.others(found, more, sum(watts[chosen] @ l for l in levels))]
+
     return Layout(chosen, levels, bound, misses, proven, others)
 
 

@@ -316,10 +316,10 @@ class Steps:
         unknown = "; the least watts are not known: -s gives the search more time" if total > 0 and not (layout.misses or self.given.judge) else ""
         bound = f"; none{here} takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else unknown
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds.get('search', 0):.1f} s)")
-        self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge or d.dims()) else []
-        for k, other in enumerate(self.others):
+        self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge) else []
+        for k, (other, levels) in enumerate(self.others):
             name = f"layout{k + 2}.txt"
-            self.write(name, layout_text(d, self.candidates, other, [np.ones(len(other))] * len(layout.levels)))
+            self.write(name, layout_text(d, self.candidates, other, levels))
             elsewhere = len(set(other) - set(layout.chosen))
             print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts: {name}; not checked")
         self.write("layout.txt", layout_text(d, self.candidates, layout.chosen, layout.levels))
