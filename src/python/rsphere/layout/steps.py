@@ -13,7 +13,7 @@ from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
 from .forward import Forward, daylight_of
-from .polish import SHARES as ROUNDS
+from .polish import STEPS as ROUNDS
 from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
 from .room import plan_of, polygons_named, read_polygons
@@ -28,6 +28,7 @@ SHARES = (0.6, 0.5, 1.0)  # of the time that is left, for the first search and f
 OTHERS_SHARE = 0.1  # of it, for layouts of equal watts
 POLISH_SHARE, POLISH_GAP = 0.3, 1e-4  # of it for each round of polishing, whose search is a small one
 POLISH_DIMMED = 0.01  # what watts of levels cost there, in watts of luminaires: dimmed ones are to take less, too
+POLISH_ROUNDS = 2  # with or without a gain; then steps are halved while that gains, and takes no longer than these
 POLISH_REPEATS = 2  # of its search, with what luminaires as built have shown
 ALIKE = 0.005  # the worst goals of two layouts are missed by shares that differ by less: they are equally good
 LESS = 1e-3  # of the watts: polishing saves more, or the layout stays
@@ -124,8 +125,12 @@ class Steps:
             print("Polish: rows stay where they are." if d.rows else "Polish: there is no luminaire.")
             return
         before = self.candidates, self.watts, self.light, self.layout, self.planned_light
-        cost, worst, room = self.cost(), self.worst(), spaces(d, self.candidates)
+        cost, worst, room, begin, longest, gains = self.cost(), self.worst(), spaces(d, self.candidates), time.monotonic(), 0.0, True
         for turn in range(len(ROUNDS)):
+            if turn == POLISH_ROUNDS:
+                longest = 2 * (time.monotonic() - begin)
+            if turn >= POLISH_ROUNDS and (not gains or time.monotonic() - begin > longest):
+                break
             more, room_more = neighbours(d, self.candidates, self.layout.chosen, room, turn)
             if not more:
                 break
@@ -144,7 +149,8 @@ class Steps:
                 if self.worst() <= old[3] + ALIKE:
                     break
                 factors = [self.factors_as_built(s, f) for s, f in enumerate(factors)]
-            if not self.better(self.cost(), self.worst(), old[2], old[3]):
+            gains = self.better(self.cost(), self.worst(), old[2], old[3])
+            if not gains:
                 self.layout, self.planned_light = old[:2]
         less, missed = self.cost(), self.worst()
         if self.layout is before[3]:
