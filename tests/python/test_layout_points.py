@@ -12,6 +12,7 @@ import numpy as np
 
 from rsphere.layout.room import Polygon, inside_margin, surface_of, vector_of
 from rsphere.layout.search import even_choices
+from rsphere.layout.transfer import smoothed
 from run_here import built, run_here
 
 CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
@@ -36,6 +37,40 @@ def box(material, name, low, high):
     faces["6457"] = (x, y, c, a, y, c, a, b, c, x, b, c)
     faces["2310"] = (x, y, z, x, b, z, a, b, z, a, y, z)
     return "".join(f"{material} polygon {name}.{face} 0 0 12 {' '.join(map(str, at))}\n" for face, at in faces.items())
+
+
+class Smoothing(unittest.TestCase):
+    """Reflected light of cells: a plain with noise, a step that is more than noise, cells in a line, and few cells."""
+
+    def setUp(self):
+        self.random = np.random.default_rng(5)
+        self.places = np.stack([*np.meshgrid(np.arange(8.0), np.arange(6.0)), np.zeros((6, 8))], axis=-1).reshape(-1, 3)
+
+    def noisy(self, even, share):
+        return even[None, :, None] * (1 + share * self.random.normal(size=(4, len(even), 3)))
+
+    def off(self, sets, even):
+        return np.sqrt(((sets.mean(axis=(0, 2)) / even - 1) ** 2).mean())
+
+    def test_less_noise(self):
+        even = 50 + self.places[:, 0] - 0.2 * self.places[:, 1] ** 2
+        sets = self.noisy(even, 0.2)
+        found = smoothed(sets, self.places)
+        self.assertLess(self.off(found, even), 0.6 * self.off(sets, even))
+        np.testing.assert_allclose(smoothed(self.noisy(even, 0), self.places).mean(axis=(0, 2)), even)
+        np.testing.assert_allclose(found.mean(axis=1), sets.mean(axis=1))
+
+    def test_steps_stay(self):
+        even = np.where(self.places[:, 0] > 3, 50.0, 30.0)
+        sets = self.noisy(even, 0.02)
+        self.assertLess(self.off(smoothed(sets, self.places), even), 1.2 * self.off(sets, even))
+
+    def test_lines_and_few(self):
+        even = np.full(8, 40.0)
+        line = np.stack([np.arange(8.0), np.zeros(8), np.full(8, 2.0)], axis=1)
+        sets = self.noisy(even, 0.1)
+        self.assertLess(self.off(smoothed(sets, line), even), self.off(sets, even))
+        self.assertIs(smoothed(sets[:, :5], line[:5]).base, sets)
 
 
 class Shapes(unittest.TestCase):

@@ -17,7 +17,7 @@ from .polish import STEPS as ROUNDS
 from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
 from .room import plan_of, polygons_named, read_polygons
-from .search import Layout, most_of, search
+from .search import TIE, Layout, most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
 from .wanted import Light, answers, light_of, receiver_of, rows_of
@@ -293,6 +293,9 @@ class Steps:
         each = (f"{s.name} {self.scene_watts(levels):.0f} W".strip() for s, levels in zip(self.design.all_scenes(), self.layout.levels))
         return f"; dimmed: {', '.join(each)}"
 
+    def tie_text(self):
+        return f", as dimmed within {TIE:.1%}" if self.design.dims() else ""
+
     def tell_points(self):
         """Which points are left out, and where goals are darkest."""
         room, self.points_text, self.darkest = self.rsphere.Scene(self.given.room), [], []
@@ -327,7 +330,7 @@ class Steps:
             name = f"layout{k + 2}.txt"
             self.write(name, layout_text(d, self.candidates, other, levels))
             elsewhere = len(set(other) - set(layout.chosen))
-            print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts: {name}; not checked")
+            print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts{self.tie_text()}: {name}; not checked")
         self.write("layout.txt", layout_text(d, self.candidates, layout.chosen, layout.levels))
         for text in self.faults:
             print(f"Not allowed: {text}")
@@ -484,7 +487,7 @@ class Steps:
         if self.polished:
             page.note(f"Polished between the candidates: {self.polished}.")
         if self.others:
-            page.note(f"{len(self.others)} other layouts take as many watts: {', '.join(f'layout{k + 2}.txt' for k in range(len(self.others)))}, not checked.")
+            page.note(f"{len(self.others)} other layouts take as many watts{self.tie_text()}: {', '.join(f'layout{k + 2}.txt' for k in range(len(self.others)))}, not checked.")
         planned = (f"the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard error "
                    f"{self.matrix_error():.1%}") if self.matrix else f"the importance of the goals at the luminaires, {self.given.bounces} reflections"
         page.note(f"Planned: by {planned}. Found: light traced forward from the luminaires as built (rsphere -I), with its "
