@@ -107,9 +107,10 @@ class Places(InAFolder):
     def test_others_that_are_dimmed(self):
         """Only what takes as much as dimmed, within .5%, is as good."""
         design = self.design("dimming yes", *(f"place spot {x} 2.5 2.8" for x in (1, 3, 5, 7)))
-        rows = [Row(Goal("illuminance", "desk", 50, ("goals.txt", 1)), np.array([100.0, 99.7, 90.0, 99.8]), -50.0, 1, 50.0)]
+        rows = [Row(Goal("illuminance", "desk", 50, ("goals.txt", 1)), np.array([90.0, 99.7, 100.0, 99.8]), -50.0, 1, 50.0)]
         layout = search(design, design.candidates, np.full(4, 13.0), [rows], 2.0, 0.0)
-        self.assertEqual(list(layout.chosen), [0])
+        self.assertEqual(list(layout.chosen), [2], "what takes least as dimmed")
+        self.assertAlmostEqual(layout.bound, 13, delta=1e-3)
         others = {int(other[0]): float(levels[0][0]) for other, levels in layout.others(4.0)}
         self.assertEqual(sorted(others), [1, 3])
         self.assertAlmostEqual(others[1], 50 / 99.7, delta=1e-3)

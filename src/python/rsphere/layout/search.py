@@ -11,6 +11,7 @@ from ..progress import PROGRESS
 
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once
+DIMMED_SHARE, DIMMED_GAP = 0.2, 1e-3  # of the time, for less watts as dimmed
 OTHERS = 2  # layouts of equal watts that are looked for
 TIE = 0.005  # of the watts as dimmed, which are equal within it
 ELSEWHERE = 0.25  # of the luminaires: how many of another layout hang where none of the first do
@@ -313,6 +314,26 @@ class Solver:
         best.fun = float(np.dot(self.program.cost, best.x))
         return self.improved(best, time.monotonic() + seconds, 0.0, 0.0)
 
+    def less_dimmed(self, best, seconds):
+        """The layout that takes least as dimmed, of those with the watts of the best; the best if none is found in the time."""
+        before, end, total = self.dimmed_watts(best), time.monotonic() + seconds, float(self.watts @ np.round(best.x[self.x]))
+        self.dimmed = 1.0
+        while time.monotonic() < end:
+            self.build()
+            self.program.constrain(self.x, self.watts, 0, total + 1e-6)
+            for v in self.x:
+                self.program.cost[v] = 0.0
+            found = self.program.solve(max(end - time.monotonic(), 0.1), DIMMED_GAP)
+            if found.x is None:
+                break
+            if not self.missed(found):
+                return found if self.dimmed_watts(found) < before else best
+        return best
+
+    def dimmed_watts(self, found):
+        """Of all scenes together."""
+        return float(sum(self.watts @ found.x[v] for v in self.levels))
+
     def others(self, best, seconds, dimmed):
         """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere. dimmed: its watts as dimmed, of all scenes."""
         known, end = [np.flatnonzero(best.x[self.x] > 0.5)], time.monotonic() + seconds
@@ -331,14 +352,18 @@ class Solver:
         return known[1:]
 
 
-def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e-9):
-    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those."""
-    solver = Solver(design, candidates, watts, scenes, False, dimmed)
-    found = solver.solve(seconds, gap)
+def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=0.0):
+    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those; 0: they decide among
+    layouts of equal watts."""
+    solver = Solver(design, candidates, watts, scenes, False, dimmed or 1e-9)
+    decide = design.dims() and not dimmed
+    found = solver.solve((1 - DIMMED_SHARE * decide) * seconds, gap)
+    if found.x is not None and decide:
+        found, found.mip_dual_bound = solver.less_dimmed(found, DIMMED_SHARE * seconds), found.mip_dual_bound
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
     proven = found.status == 2  # not just out of time
     if found.x is None:
-        solver = Solver(design, candidates, watts, scenes, True, dimmed)
+        solver = Solver(design, candidates, watts, scenes, True, dimmed or 1e-9)
         found = solver.solve(seconds / 2, gap)
         if found.x is not None and found.status != 0:  # out of time: watts have hardly counted
             found = solver.with_fewer_watts(found, seconds / 2)
