@@ -158,8 +158,9 @@ class Places(InAFolder):
         """A search that was too short said that goals are missed, and nothing else."""
         steps, goal = Steps.__new__(Steps), Goal("illuminance", "desk", 500, ("goals.txt", 1))
         steps.layout = Layout(np.array([0]), [np.ones(1)], 0.0, [], False, None)
-        for judge, found, words in (("", 300, "1 of 1 goals are not met.*More seconds for the search"), ("mine.txt", 300, r"not met[^M]*\Z"), ("", 500, r"goals are met[^M]*\Z")):
-            steps.given, steps.rows = argparse.Namespace(judge=judge), [(None, goal, Answer(goal, 510, 1), Answer(goal, found, 1))]
+        for judge, planned, found, words in (("", 490, 300, "1 of 1 goals are not met.*More seconds for the search"), ("", 510, 480, "goals that ask for 6% more"),
+                                             ("mine.txt", 510, 300, r"not met[^M]*\Z"), ("", 510, 500, r"goals are met[^M]*\Z")):
+            steps.given, steps.rows = argparse.Namespace(judge=judge), [(None, goal, Answer(goal, planned, 1), Answer(goal, found, 1))]
             self.assertRegex(steps.verdict(), words)
 
     def run_on(self, lines, *options):

@@ -425,6 +425,14 @@ class Steps:
     def met(self):
         return not self.layout.misses and not self.faults and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
 
+    def help_text(self):
+        """What would meet the goals that are missed by light traced forward alone."""
+        missed = [(p, f) for *_, p, f in self.rows if f and not f.met(TOLERANCE)]
+        more = [p.value / f.value - 1 for p, f in missed if p.met() and p.goal.kind not in ("most", "ugr") and f.value > 0]
+        if len(more) < len(missed):
+            return " More seconds for the search (-s) or more places may meet them."
+        return f" They are met as planned, where panes and polished metal also send the light of luminaires: goals that ask for {max(more):.0%} more will be met."
+
     def verdict(self):
         if not any(f for *_, f in self.rows):
             return "Not checked."
@@ -433,7 +441,7 @@ class Steps:
                 f"{', '.join(largest)}.")
         missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
         if missed or self.layout.misses:
-            helps = "" if self.layout.misses or self.given.judge else " More seconds for the search (-s) or more places may meet them."
+            helps = "" if self.layout.misses or self.given.judge else self.help_text()
             return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}{helps}"
         return f"All {len(self.rows)} goals are met. {text}"
 
