@@ -172,8 +172,19 @@ class Layouts(unittest.TestCase):
         self.assertRegex(run.stdout, r"(?m)^floor is darkest at [0-9.]+ [0-9.]+: [0-9]+% of the mean\.$")
         words = [node.firstChild.data for node in figure.getElementsByTagName("text")]
         self.assertIn("chest", words)
-        self.assertTrue(any("ring: where a goal is darkest" in w for w in words))
+        self.assertTrue(any("rings: where goals are darkest" in w for w in words))
         self.assertIn(text[0][:-1].split(";")[0], page)
+
+    def test_floor_in_a_glass_box(self):
+        """What the panes of a box reflect to the floor inside of it was missing in the plan: a tenth of the reflected light."""
+        glass = "void glass clear 0 0 3 .94 .94 .94\n" + box("clear", "box", (4.5, .5, 0), (7.5, 4.5, 2.4))
+        glass = "\n".join(line for line in glass.split("\n") if " box.2310 " not in line)
+        lines = ["place panel 1.5 2.5 2.9", "illuminance floor 10 uniformity .01"]
+        run, _, _ = self.run_on(lines, glass, "-c", "128", "-d", "2048")
+        planned, found = self.values(run)["illuminance"]
+        self.assertAlmostEqual(planned / found, 1, delta=0.03, msg=run.stdout)
+        deviation = float(re.search(r"(?m)^uniformity .* (\S+)  yes$", run.stdout)[1])
+        self.assertAlmostEqual(deviation, 0, delta=0.008, msg=f"of .11, by light in the box that panes reflect: {run.stdout}")  # it was .020
 
     def test_watts_of_dimmed_luminaires(self):
         """The terminal had the watts of the luminaires, and the page those of the scene, without a word."""
