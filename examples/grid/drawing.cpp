@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "companions/report/markup.h"
 
@@ -158,16 +160,43 @@ void drawAxes(Canvas& canvas, const Scale& scale) {
   canvas.path(ticks, "stroke=\"#555\" fill=\"none\"");
 }
 
-// Each line has a label where it is free of those before, best in its middle.
-void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vector<V2d>>& lines, double level,
-                std::vector<Box>& taken) {
+using Lines = std::vector<std::vector<V2d>>;
+
+// How many of the lines of all levels pass through a box.
+size_t linesThrough(const Box& box, const Scale& scale, const std::vector<Lines>& all) {
+  const auto passes = [&](const std::vector<V2d>& line) {
+    for (size_t i = 1; i < line.size(); ++i) {
+      const V2d a(scale.x(line[i - 1].x), scale.y(line[i - 1].y)), b(scale.x(line[i].x), scale.y(line[i].y));
+      if (!Box{std::min(a.x, b.x) - 1, std::min(a.y, b.y) - 1, std::max(a.x, b.x) + 1, std::max(a.y, b.y) + 1}
+               .overlaps(box))
+        continue;
+      const int steps = 1 + static_cast<int>((b - a).length());  // of a pixel
+      for (int k = 0; k <= steps; ++k) {
+        const V2d p = a + (b - a) * (static_cast<double>(k) / steps);
+        if (p.x > box.left && p.x < box.right && p.y > box.top && p.y < box.bottom) return true;
+      }
+    }
+    return false;
+  };
+  ptrdiff_t count = 0;
+  for (const Lines& lines : all) count += std::count_if(lines.begin(), lines.end(), passes);
+  return static_cast<size_t>(count);
+}
+
+// Each line has a label where it is free of those before: where the fewest other lines pass, best in its
+// middle. A short line has none among several others: it would hide them, and the colors tell its level.
+void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<Lines>& all, size_t number,
+                double level, std::vector<Box>& taken) {
+  constexpr double kShort = 150;  // pixels
   const std::string words = luxText(level);
   const double halfWidth = 3.4 * static_cast<double>(words.size()) + 3;
-  for (const auto& line : lines) {
+  for (const auto& line : all[number]) {
     double length = 0;
     for (size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).length();
     if (length * scale.perUnit < 60) continue;
-    for (int trial = 0; trial < 36; ++trial) {
+    size_t fewest = length * scale.perUnit < kShort ? 3 : std::numeric_limits<size_t>::max();
+    std::optional<V2d> best;
+    for (int trial = 0; trial < 36 && !(best && fewest <= 1); ++trial) {
       const double share = .5 + (trial % 2 ? -.0125 : .0125) * trial;
       double left = share * length;
       size_t i = 1;
@@ -184,13 +213,18 @@ void drawLabels(Canvas& canvas, const Scale& scale, const std::vector<std::vecto
           box.bottom > frame.bottom)
         continue;
       if (std::any_of(taken.begin(), taken.end(), [&](const Box& b) { return b.overlaps(box); })) continue;
-      taken.push_back({box.left - 14, box.top - 9, box.right + 14, box.bottom + 9});
-      const std::string place = "text-anchor=\"middle\" font-size=\"11\" font-weight=\"bold\" ";
-      canvas.text(x, y + 4, words,
-                  place + "stroke=\"white\" stroke-width=\"3\" stroke-linejoin=\"round\" opacity=\".85\"");
-      canvas.text(x, y + 4, words, place + "fill=\"#111\"");
-      break;
+      const size_t through = linesThrough(box, scale, all);
+      if (through >= fewest) continue;
+      fewest = through;
+      best = V2d(x, y);
     }
+    if (!best) continue;
+    const auto [x, y] = std::pair(best->x, best->y);
+    taken.push_back({x - halfWidth - 14, y - 16, x + halfWidth + 14, y + 16});
+    const std::string place = "text-anchor=\"middle\" font-size=\"11\" font-weight=\"bold\" ";
+    canvas.text(x, y + 4, words,
+                place + "stroke=\"white\" stroke-width=\"3\" stroke-linejoin=\"round\" opacity=\".85\"");
+    canvas.text(x, y + 4, words, place + "fill=\"#111\"");
   }
 }
 
@@ -261,7 +295,7 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
   }
   if (!drawing.context.empty())
     canvas.path(scale.lines(drawing.context, true), "fill=\"none\" stroke=\"#000\" stroke-width=\"1.4\"");
-  std::vector<std::vector<std::vector<V2d>>> isolines;
+  std::vector<Lines> isolines;
   for (const double level : levels) {
     isolines.push_back(field.isolines(level));
     if (!isolines.back().empty())
@@ -294,7 +328,7 @@ std::string planAsSvg(const Area& area, const Grid& grid, std::span<const double
                               size, colors[band].dark() ? "white" : "black", colors[band].text(), .3 * size));
     }
   }
-  for (size_t i = levels.size(); i-- > 0;) drawLabels(canvas, scale, isolines[i], levels[i], taken);
+  for (size_t i = levels.size(); i-- > 0;) drawLabels(canvas, scale, isolines, i, levels[i], taken);
 
   drawAxes(canvas, scale);
   const double legendHeight = std::max(frame.bottom - frame.top, 18. * static_cast<double>(colors.size()));

@@ -3,6 +3,7 @@ import html
 import math
 
 LEFT, RIGHT, TOP, BOTTOM = 60, 620, 40, 315
+MOST = 2.5  # of the least watts: first layouts of random tries take far more, and their lines come from above
 STYLES = (("#1b6fb3", ""), ("#e7298a", ""), ("#d95f02", ""), ("#d95f02", "2 4"), ("#1b9e77", "6 4"), ("#7570b3", "6 4"))
 
 
@@ -10,7 +11,7 @@ def curve_drawing(curves):
     """SVG of (name, seconds, watts): steps, from where a first layout is known to the end of the longest way."""
     first = math.floor(math.log10(min(s[0] for _, s, _ in curves)))
     last = math.ceil(math.log10(max(s[-1] for _, s, _ in curves)))
-    most = 1.1 * max(w[0] for _, _, w in curves)
+    most = min(1.1 * max(w[0] for _, _, w in curves), MOST * min(w[-1] for _, _, w in curves))
 
     def x(seconds):
         return LEFT + (RIGHT - LEFT) * (math.log10(seconds) - first) / (last - first)
@@ -34,9 +35,9 @@ def curve_drawing(curves):
     for power in range(first, last + 1):
         svg += text(x(10.0**power), BOTTOM + 16, f"{10.0**power:g}", "middle")
     for (name, seconds, watts), (color, dashes) in zip(curves, STYLES):
-        path = f"M{x(seconds[0]):.1f} {TOP}V{y(watts[0]):.1f}"
+        path = f"M{x(seconds[0]):.1f} {TOP}V{max(y(watts[0]), TOP):.1f}"
         for at, value in zip(seconds[1:], watts[1:]):
-            path += f"H{x(at):.1f}V{y(value):.1f}"
+            path += f"H{x(at):.1f}V{max(y(value), TOP):.1f}"
         svg += f'<path d="{path}" fill="none" stroke="{color}" stroke-width="2" stroke-dasharray="{dashes or "none"}"/>\n'
         svg += f'<circle cx="{x(seconds[-1]):.1f}" cy="{y(watts[-1]):.1f}" r="4" fill="{color}"/>\n'
     row = 374

@@ -19,6 +19,10 @@ namespace {
 constexpr double kSameSource = .1;  // rad
 constexpr double kPeak = 50000;     // cd/m2
 
+// No direction reaches a fixed threshold from here on (the sun has 1.6e9 cd/m2), except to a light source of
+// its own: the indirect light of a direction need not be separated, which takes most of the time.
+constexpr double kAboveAll = 1e10;  // cd/m2
+
 // Offsets of seeds: rays that are traced again, and rays to the task, are independent of rays that are traced
 // first.
 constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
@@ -213,7 +217,7 @@ GlareEstimator::Look GlareEstimator::lookAlong(const SetAtPoint& set, size_t num
                                                PathTracer& tracer) const {
   Look look{sample.direction, sample.solidAngle};
   look.set = set.number();
-  if (sample.toSource || ray.firstHit.surface == kNone) {
+  if (sample.toSource || ray.firstHit.surface == kNone || options_.glare.threshold >= kAboveAll) {
     look.direct = luminance(sample.value);
     look.surface = ray.shown.source;
     look.toLamp = sample.toSource && ray.shown.mirror == kNone;

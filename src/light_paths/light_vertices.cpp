@@ -117,6 +117,14 @@ class LightVertices::Path {
   bool leave(double where);
   void leaveSky(double where);
   bool entersAgain(const Hit& hit) const;
+  // Whether sharp reflections of light straight from a source are left out, as rtrace leaves them out.
+  // Importance has them: they are the last steps of light that rays from a goal find by the same reflections.
+  bool losesCaustics() const { return past_.fromSource && !prepared_.scene().importance; }
+  void reflectedSharply() {
+    past_.way = LightVertex::sharp;
+    past_.fromSource = false;
+    beam_.length = 0;
+  }
   bool passPane(const Hit& hit);
   bool meetMirror(const Hit& hit, Course& course);
   void arrive(const PlainPlace& at);
@@ -236,7 +244,7 @@ bool LightVertices::Path::leave(double where) {
 // Continues the path through a pane, or reflects it there. Returns false if the path ends.
 bool LightVertices::Path::passPane(const Hit& hit) {
   Interaction view = plainInteraction(beam_.direction, hit.normal, true);
-  if (past_.fromSource) view.kinds = kShadow;  // no reflection
+  if (losesCaustics()) view.kinds = kShadow;  // no reflection
   const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).pane, view);
   double left = random_.uniform() * brightness(beam_.power);
   for (const SharpPath& next : s.sharp) {
@@ -247,8 +255,7 @@ bool LightVertices::Path::passPane(const Hit& hit) {
     beam_.power = beam_.power * next.coefficient * (brightness(beam_.power) / share);
     if (next.kind == kReflected) {
       beam_.direction = next.direction;
-      past_.way = LightVertex::sharp;
-      beam_.length = 0;
+      reflectedSharply();
     }
     return true;
   }
@@ -263,7 +270,7 @@ bool LightVertices::Path::meetMirror(const Hit& hit, Course& course) {
   const LightId image =
       past_.fromSource ? all_.starts_.onSources.imageOf(past_.source, hit.surface) : LightId();
   course.leftToEye = image != kNone && !all_.surfaces_.knows(image);
-  if (course.leftToEye || (past_.fromSource && image == kNone)) return false;
+  if (course.leftToEye || (losesCaustics() && image == kNone)) return false;
   const Scattering s = scatter(*all_.surfaces_.finishOf(hit.surface).mirror,
                                plainInteraction(beam_.direction, hit.normal, false));
   const SharpPath& next = s.sharp.path[0];
@@ -273,13 +280,12 @@ bool LightVertices::Path::meetMirror(const Hit& hit, Course& course) {
   beam_.origin += hit.distance * beam_.direction;
   beam_.start = hit.surface;
   beam_.direction = next.direction;
-  if (past_.fromSource) {
+  if (image != kNone) {
     past_.source = image;
     past_.way = LightVertex::unweighed;
     return true;
   }
-  past_.way = LightVertex::sharp;
-  beam_.length = 0;
+  reflectedSharply();
   return true;
 }
 
@@ -323,7 +329,7 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   const double diffuse =
       past_.bounces < prepared_.options().ambientBounces ? strength(s.diffuseReflection) : 0;
   const Color& gloss = isSharp ? s.sharp.path[0].coefficient.color : s.specularReflection;
-  const double specular = isSharp && past_.fromSource ? 0 : strength(gloss);
+  const double specular = isSharp && losesCaustics() ? 0 : strength(gloss);
   const double chosen = random_.uniform() * std::max(all, diffuse + specular);
   if (chosen >= diffuse + specular) return false;
   // The power is divided by the probability of the choice.
@@ -340,8 +346,9 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
 }
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
-  past_.way = past_.fromSource ? LightVertex::highlight : LightVertex::sharp;
-  if (past_.fromSource) ++past_.bounces;  // a highlight is indirect light at the next surface
+  const bool isHighlight = past_.fromSource && s.sharp.count == 0;
+  past_.way = isHighlight ? LightVertex::highlight : LightVertex::sharp;
+  if (isHighlight) ++past_.bounces;  // a highlight is indirect light at the next surface
   if (s.sharp.count > 0) {
     beam_.direction = s.sharp.path[0].direction;
     beam_.power = beam_.power * s.sharp.path[0].coefficient * scale;

@@ -5,7 +5,8 @@
 //
 // Light paths are the paths of path_tracer.h in the opposite direction:
 // - A source lights the first diffuse surface directly, through panes, or by a rough highlight. Sharp
-//   reflections are excluded, because shadow rays do not follow them either.
+//   reflections are excluded, because shadow rays do not follow them either; but those of importance are not,
+//   since rays from the goals find the same light.
 // - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
 //   reflections.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for

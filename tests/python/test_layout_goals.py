@@ -261,12 +261,15 @@ class Goals(unittest.TestCase):
         from rsphere.layout.drawing import free_corner
 
         desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
-        self.assertEqual(free_corner(desk, "desk1", []), (94, 246))
-        self.assertEqual(free_corner(desk, "desk1", [(0, 0, 20, 20)]), (94, 246), "far away")
-        x, y = free_corner(desk, "desk1", [(80, 232, 110, 260)])
+        self.assertEqual(free_corner(desk, "desk1", 10, [], []), (94, 246))
+        self.assertEqual(free_corner(desk, "desk1", 10, [(0, 0, 20, 20)], []), (94, 246), "far away")
+        x, y = free_corner(desk, "desk1", 10, [(80, 232, 110, 260)], [])
         self.assertGreater(x, 120)
         self.assertEqual(y, 246)
-        self.assertEqual(free_corner(desk, "desk1", [(80, 232, 210, 260)]), (94, 212), "all along the lower edge")
+        self.assertEqual(free_corner(desk, "desk1", 10, [(80, 232, 210, 260)], []), (94, 212), "all along the lower edge")
+        names = []
+        self.assertEqual([free_corner(desk, name, 10, names, []) for name in ("desk1", "pane1")], [(94, 246), (167, 246)], "of two above each other")
+        self.assertEqual(free_corner(desk, "desk1", 10, [(160, 230, 200, 250)], [(100, 240, 101, 241)]), (94, 212), "and of a dot")
 
     def test_control_c(self):
         """It was a traceback."""

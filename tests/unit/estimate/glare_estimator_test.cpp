@@ -287,6 +287,25 @@ double trueOverStated(const std::vector<std::vector<GlareAnswer>>& answers, doub
   return std::sqrt(ratios.mean());
 }
 
+// A threshold above all luminances leaves the lamps, and the same indices as one that is below them but above
+// all else, for which indirect light is separated.
+TEST(GlareEstimator, OfLampsAlone) {
+  const SphereSetting setting = roomWithLamp();
+  SphereOptions options = setting.options.sphere;
+  options.baseDirections = 48;
+  const auto withThreshold = [&](double threshold) {
+    options.glare.threshold = threshold;
+    return glareIn(setting, V3d(1.7, .6, 1.2), V3d(0, 1, .1), options);
+  };
+  const GlareAnswer usual = withThreshold(1e5), quick = withThreshold(1e12);
+  ASSERT_EQ(quick.sources.size(), 2);
+  ASSERT_EQ(usual.sources.size(), 2);
+  EXPECT_EQ(quick.indices.ugr, usual.indices.ugr);
+  EXPECT_EQ(quick.errors.ugr, usual.errors.ugr);
+  EXPECT_EQ(quick.sources[0].luminance, usual.sources[0].luminance);
+  EXPECT_EQ(quick.sources[0].surface, usual.sources[0].surface);
+}
+
 // If only one set sees a region, leaving out that set leaves no luminance: 7/8 of the luminance was stated as
 // its error.
 TEST(GlareEstimator, LuminanceThatOneSetSeesHasItsOwnError) {

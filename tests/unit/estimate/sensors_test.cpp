@@ -61,12 +61,12 @@ RayOptions fine(int bounces) {
 
 // The illuminance of the sensor by rays from it, with a lamp of 1 cd, and one bounce more than importance
 // has.
-Sample forward(int bounces, int relays, int count) {
+Sample forward(const std::string& room, int bounces, int relays, int count) {
   // A sphere of 1 cm and the radiance of 1 cd.
   const std::string lamp =
       "void light bright 0 0 3 3183.0989 3183.0989 3183.0989\n"
       "bright sphere lamp 0 0 4 1 1.2 1.9 .01\n";
-  const Scene scene = sceneOf(kRoomWithSensor + lamp);
+  const Scene scene = sceneOf(room + lamp);
   RayOptions options = fine(bounces + 1);
   options.directRelays = relays;
   const Transport transport(scene, options, IrradianceAt::point);
@@ -107,7 +107,7 @@ double byCosine(const Sensor& sensor, const V3d& lamp) {
 }
 
 TEST(Sensors, ReceiveWhatRaysFromThemBring) {
-  const Sample light = forward(2, 2, 60000);
+  const Sample light = forward(kRoomWithSensor, 2, 2, 60000);
   const Sample importance = byImportance(kRoomWithSensor, {kOnDesk}, 2, 40);
   const double error = std::hypot(light.standardError(), importance.standardError());
   RecordProperty("light", std::to_string(light.standardError() / light.mean()));
@@ -120,7 +120,26 @@ TEST(Sensors, ReceiveWhatRaysFromThemBring) {
       << importance.standardError();
   // Importance that is 1% too strong would have been noticed, and so would the light by way of the mirror.
   EXPECT_GT(std::abs(light.mean() - 1.01 * importance.mean()), .005 * light.mean());
-  EXPECT_LT(forward(2, 0, 5000).mean(), .95 * light.mean());
+  EXPECT_LT(forward(kRoomWithSensor, 2, 0, 5000).mean(), .95 * light.mean());
+}
+
+// A pane before the sensor mirrors the room to it, whose light is indirect: a screen hides all from the lamp.
+TEST(Sensors, ReceiveWhatPanesReflect) {
+  const auto room = [](const char* pane) {
+    return roomOf(".6 .5 .4") +
+           "wall polygon screen 0 0 12 2.2 0 0 2.2 3 0 2.2 3 2.2 2.2 0 2.2\nvoid glass clear 0 0 " + pane +
+           "\nclear polygon window 0 0 12 2.9 .2 .1 2.9 2.8 .1 2.9 2.8 1.8 2.9 .2 1.8\n";
+  };
+  const std::string usual = room("3 .95 .95 .95");
+  const Sample light = forward(usual, 2, 2, 60000), importance = byImportance(usual, {kOnDesk}, 2, 40);
+  const double error = std::hypot(light.standardError(), importance.standardError());
+  RecordProperty("error", std::to_string(error / light.mean()));
+  RecordProperty("difference", std::to_string(importance.mean() / light.mean() - 1));
+  EXPECT_LT(3 * error, .015 * light.mean());
+  EXPECT_NEAR(light.mean(), importance.mean(), .015 * light.mean());
+  // Index 1: without reflections.
+  const double without = byImportance(room("4 .95 .95 .95 1"), {kOnDesk}, 2, 40).mean();
+  EXPECT_GT(std::abs(without / light.mean() - 1), .03);
 }
 
 TEST(Sensors, HaveExactDirectLight) {

@@ -6,12 +6,13 @@ from ..photometry.lamp_rad import word
 from .design import Candidate, Words
 from .search import Program, arrange, mirror_of, too_near
 
-SHARES = (0.25, 0.125)  # of the distance between candidates: how far away neighbours are, in each round; together less than a half
-TILTS = (6.0, 3.0)  # degrees: of the aims of neighbours
+STEPS = [0.5**n for n in range(5)]  # of the first one, in each round
+SHARES = [0.25 * s for s in STEPS]  # of the distance between candidates: how far away neighbours are; together less than a half
+TILTS = [6.0 * s for s in STEPS]  # degrees: of the aims of neighbours
 LEVEL = 1e-3  # m: candidates at one height are neighbours of each other
 SAME = 1e-3  # m, and of aims: a luminaire is where a candidate is
 TILTED = 0.9999  # of the cosine to straight down: luminaires that are aimed lower have no other aims
-MOST_TILT = sum(TILTS) + 0.1  # degrees: how far aims may be from those of a candidate
+MOST_TILT = 12.0  # degrees: how far aims may be from those of a candidate, which is as far as all steps of TILTS together reach
 MOST_LUMINAIRES = 2000  # of a layout that is judged: each is compared with all others
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 

@@ -11,7 +11,9 @@ from ..progress import PROGRESS
 
 MOST_MISSED = 4  # rows of a goal that are added at once
 SHARE = 0.4  # of the time that is left, for the whole program at once
+DIMMED_SHARE, DIMMED_GAP = 0.2, 1e-3  # of the time, for less watts as dimmed
 OTHERS = 2  # layouts of equal watts that are looked for
+TIE = 0.005  # of the watts as dimmed, which are equal within it
 ELSEWHERE = 0.25  # of the luminaires: how many of another layout hang where none of the first do
 EVEN = 1e-3  # of a spacing: rows are as far apart as others
 FLAT = 0.01  # m: the height of a flat luminaire, where others do not fit
@@ -24,7 +26,7 @@ class Layout:
     bound: float  # no layout takes less (W); 0 if that is not known
     misses: list  # (scene, goal, by what share of its size), if not all goals are met
     proven: bool  # that these goals cannot all be met; otherwise the time was too short
-    others: object  # function of seconds: other layouts of equal watts, as indices of candidates
+    others: object  # function of seconds: other layouts of equal watts, as indices of candidates and levels of each scene
 
 
 class Program:
@@ -312,12 +314,34 @@ class Solver:
         best.fun = float(np.dot(self.program.cost, best.x))
         return self.improved(best, time.monotonic() + seconds, 0.0, 0.0)
 
-    def others(self, best, seconds):
-        """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere."""
+    def less_dimmed(self, best, seconds):
+        """The layout that takes least as dimmed, of those with the watts of the best; the best if none is found in the time."""
+        before, end, total = self.dimmed_watts(best), time.monotonic() + seconds, float(self.watts @ np.round(best.x[self.x]))
+        self.dimmed = 1.0
+        while time.monotonic() < end:
+            self.build()
+            self.program.constrain(self.x, self.watts, 0, total + 1e-6)
+            for v in self.x:
+                self.program.cost[v] = 0.0
+            found = self.program.solve(max(end - time.monotonic(), 0.1), DIMMED_GAP)
+            if found.x is None:
+                break
+            if not self.missed(found):
+                return found if self.dimmed_watts(found) < before else best
+        return best
+
+    def dimmed_watts(self, found):
+        """Of all scenes together."""
+        return float(sum(self.watts @ found.x[v] for v in self.levels))
+
+    def others(self, best, seconds, dimmed):
+        """Other layouts (indices of candidates) with the watts of the best, a share of which hang elsewhere. dimmed: its watts as dimmed, of all scenes."""
         known, end = [np.flatnonzero(best.x[self.x] > 0.5)], time.monotonic() + seconds
         while len(known) <= OTHERS and time.monotonic() < end:
             self.build()
             self.program.constrain(self.x, self.watts, 0, float(self.watts[known[0]].sum()) + 1e-6)
+            if self.design.dims():
+                self.program.constrain(np.concatenate(self.levels), np.tile(self.watts, len(self.levels)), 0, (1 + TIE) * dimmed)
             for here in known:
                 self.program.constrain(self.x[here], np.ones(len(here)), 0, len(here) - max(1, round(ELSEWHERE * len(here))))
             found = self.program.solve(max(end - time.monotonic(), 0.1), 1.0)
@@ -328,14 +352,18 @@ class Solver:
         return known[1:]
 
 
-def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e-9):
-    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those."""
-    solver = Solver(design, candidates, watts, scenes, False, dimmed)
-    found = solver.solve(seconds, gap)
+def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=0.0):
+    """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those; 0: they decide among
+    layouts of equal watts."""
+    solver = Solver(design, candidates, watts, scenes, False, dimmed or 1e-9)
+    decide = design.dims() and not dimmed
+    found = solver.solve((1 - DIMMED_SHARE * decide) * seconds, gap)
+    if found.x is not None and decide:
+        found, found.mip_dual_bound = solver.less_dimmed(found, DIMMED_SHARE * seconds), found.mip_dual_bound
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
     proven = found.status == 2  # not just out of time
     if found.x is None:
-        solver = Solver(design, candidates, watts, scenes, True, dimmed)
+        solver = Solver(design, candidates, watts, scenes, True, dimmed or 1e-9)
         found = solver.solve(seconds / 2, gap)
         if found.x is not None and found.status != 0:  # out of time: watts have hardly counted
             found = solver.with_fewer_watts(found, seconds / 2)
@@ -346,8 +374,17 @@ def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=1e
     x = solver.x
     chosen = np.flatnonzero(found.x[x] > 0.5)
     allowed = {(s, id(goal)): slack for s, goal, slack in misses}
-    levels = [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
-    others = (lambda more: []) if solver.elastic else (lambda more: solver.others(found, more))  # elastic ones miss any goal
+
+    def dim_all(chosen):
+        return [dim(design, watts[chosen], s, rows, chosen, allowed, seconds) for s, rows in enumerate(scenes)]
+
+    levels = dim_all(chosen)
+
+    def others(more):
+        if solver.elastic:
+            return []  # they miss any goal
+        return [(other, dim_all(other)) for other in solver.others(found, more, sum(watts[chosen] @ l for l in levels))]
+
     return Layout(chosen, levels, bound, misses, proven, others)
 
 

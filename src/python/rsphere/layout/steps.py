@@ -13,11 +13,11 @@ from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
 from .forward import Forward, daylight_of
-from .polish import SHARES as ROUNDS
+from .polish import STEPS as ROUNDS
 from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
 from .room import plan_of, polygons_named, read_polygons
-from .search import Layout, most_of, search
+from .search import TIE, Layout, most_of, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
 from .wanted import Light, answers, light_of, receiver_of, rows_of
@@ -28,6 +28,7 @@ SHARES = (0.6, 0.5, 1.0)  # of the time that is left, for the first search and f
 OTHERS_SHARE = 0.1  # of it, for layouts of equal watts
 POLISH_SHARE, POLISH_GAP = 0.3, 1e-4  # of it for each round of polishing, whose search is a small one
 POLISH_DIMMED = 0.01  # what watts of levels cost there, in watts of luminaires: dimmed ones are to take less, too
+POLISH_ROUNDS = 2  # with or without a gain; then steps are halved while that gains, and takes no longer than these
 POLISH_REPEATS = 2  # of its search, with what luminaires as built have shown
 ALIKE = 0.005  # the worst goals of two layouts are missed by shares that differ by less: they are equally good
 LESS = 1e-3  # of the watts: polishing saves more, or the layout stays
@@ -124,8 +125,12 @@ class Steps:
             print("Polish: rows stay where they are." if d.rows else "Polish: there is no luminaire.")
             return
         before = self.candidates, self.watts, self.light, self.layout, self.planned_light
-        cost, worst, room = self.cost(), self.worst(), spaces(d, self.candidates)
+        cost, worst, room, begin, longest, gains = self.cost(), self.worst(), spaces(d, self.candidates), time.monotonic(), 0.0, True
         for turn in range(len(ROUNDS)):
+            if turn == POLISH_ROUNDS:
+                longest = 2 * (time.monotonic() - begin)
+            if turn >= POLISH_ROUNDS and (not gains or time.monotonic() - begin > longest):
+                break
             more, room_more = neighbours(d, self.candidates, self.layout.chosen, room, turn)
             if not more:
                 break
@@ -144,7 +149,8 @@ class Steps:
                 if self.worst() <= old[3] + ALIKE:
                     break
                 factors = [self.factors_as_built(s, f) for s, f in enumerate(factors)]
-            if not self.better(self.cost(), self.worst(), old[2], old[3]):
+            gains = self.better(self.cost(), self.worst(), old[2], old[3])
+            if not gains:
                 self.layout, self.planned_light = old[:2]
         less, missed = self.cost(), self.worst()
         if self.layout is before[3]:
@@ -287,6 +293,9 @@ class Steps:
         each = (f"{s.name} {self.scene_watts(levels):.0f} W".strip() for s, levels in zip(self.design.all_scenes(), self.layout.levels))
         return f"; dimmed: {', '.join(each)}"
 
+    def tie_text(self):
+        return f", as dimmed within {TIE:.1%}" if self.design.dims() else ""
+
     def tell_points(self):
         """Which points are left out, and where goals are darkest."""
         room, self.points_text, self.darkest = self.rsphere.Scene(self.given.room), [], []
@@ -316,12 +325,12 @@ class Steps:
         unknown = "; the least watts are not known: -s gives the search more time" if total > 0 and not (layout.misses or self.given.judge) else ""
         bound = f"; none{here} takes less than {layout.bound:.0f} W{gap}" if layout.bound > 0 else unknown
         print(f"Layout: {len(layout.chosen)} luminaires, {total:g} W{bound}{self.dimmed_text()} ({self.seconds.get('search', 0):.1f} s)")
-        self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge or d.dims()) else []
-        for k, other in enumerate(self.others):
+        self.others = self.timed("others", lambda: layout.others(OTHERS_SHARE * self.given.seconds)) if not (layout.misses or self.polished or self.given.judge) else []
+        for k, (other, levels) in enumerate(self.others):
             name = f"layout{k + 2}.txt"
-            self.write(name, layout_text(d, self.candidates, other, [np.ones(len(other))] * len(layout.levels)))
+            self.write(name, layout_text(d, self.candidates, other, levels))
             elsewhere = len(set(other) - set(layout.chosen))
-            print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts: {name}; not checked")
+            print(f"{len(other)} luminaires, {elsewhere} of them elsewhere, take as many watts{self.tie_text()}: {name}; not checked")
         self.write("layout.txt", layout_text(d, self.candidates, layout.chosen, layout.levels))
         for text in self.faults:
             print(f"Not allowed: {text}")
@@ -416,6 +425,14 @@ class Steps:
     def met(self):
         return not self.layout.misses and not self.faults and all(f is None or f.met(TOLERANCE) for *_, f in self.rows)
 
+    def help_text(self):
+        """What would meet the goals that are missed by light traced forward alone."""
+        missed = [(p, f) for *_, p, f in self.rows if f and not f.met(TOLERANCE)]
+        more = [p.value / f.value - 1 for p, f in missed if p.met() and p.goal.kind not in ("most", "ugr") and f.value > 0]
+        if len(more) < len(missed):
+            return " More seconds for the search (-s) or more places may meet them."
+        return f" They are met as planned, where panes and polished metal also send the light of luminaires: goals that ask for {max(more):.0%} more will be met."
+
     def verdict(self):
         if not any(f for *_, f in self.rows):
             return "Not checked."
@@ -424,7 +441,7 @@ class Steps:
                 f"{', '.join(largest)}.")
         missed = sum(not f.met(TOLERANCE) for *_, f in self.rows if f)
         if missed or self.layout.misses:
-            helps = "" if self.layout.misses or self.given.judge else " More seconds for the search (-s) or more places may meet them."
+            helps = "" if self.layout.misses or self.given.judge else self.help_text()
             return f"{max(missed, len(self.layout.misses))} of {len(self.rows)} goals are not met. {text}{helps}"
         return f"All {len(self.rows)} goals are met. {text}"
 
@@ -478,7 +495,7 @@ class Steps:
         if self.polished:
             page.note(f"Polished between the candidates: {self.polished}.")
         if self.others:
-            page.note(f"{len(self.others)} other layouts take as many watts: {', '.join(f'layout{k + 2}.txt' for k in range(len(self.others)))}, not checked.")
+            page.note(f"{len(self.others)} other layouts take as many watts{self.tie_text()}: {', '.join(f'layout{k + 2}.txt' for k in range(len(self.others)))}, not checked.")
         planned = (f"the importance of the goals at {len(self.candidates)} candidates, {self.given.bounces} reflections, standard error "
                    f"{self.matrix_error():.1%}") if self.matrix else f"the importance of the goals at the luminaires, {self.given.bounces} reflections"
         page.note(f"Planned: by {planned}. Found: light traced forward from the luminaires as built (rsphere -I), with its "

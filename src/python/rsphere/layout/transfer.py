@@ -35,6 +35,7 @@ LEAST_DIRECTIONS = 64
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
+LEAST_OF_PLANES, LEAST_OF_SQUARES = 6, 12  # cells that a polynomial of degree one and two needs, twice its terms
 WEIGHTS = np.array([0.265, 0.670, 0.065])  # of red, green and blue in brightness
 
 
@@ -125,6 +126,28 @@ def parts_of(photometry, most, as_built):
         return parts.points, parts.shares
     points = inner_points(photometry, most)
     return points, lambda directions: np.full(directions.shape[:-1], 1 / len(points))
+
+
+def smoothed(sets, places):
+    """Reflected light of cells (SETS, cells, candidates) with less noise: it varies slowly over a surface, as a polynomial of two coordinates.
+
+    What differs from this is kept as far as it is more than noise, by the spread of the sets, and all candidates are treated alike.
+    places: of the cells (cells, 3).
+    """
+    if len(places) < LEAST_OF_PLANES:
+        return sets
+    middle = places.mean(axis=0)
+    u, v = np.linalg.svd(places - middle, full_matrices=False)[2][:2] @ (places - middle).T
+    columns = [np.ones(len(places)), u, v]
+    columns += [u * u, u * v, v * v] if len(places) >= LEAST_OF_SQUARES else []
+    left, singular, _ = np.linalg.svd(np.stack(columns, axis=1) / np.linalg.norm(columns, axis=1).clip(1e-300), full_matrices=False)
+    left = left[:, singular > 1e-6]  # cells in a line
+    even = left @ np.einsum("ck,scj->skj", left, sets).transpose(1, 0, 2).reshape(left.shape[1], -1)
+    even = even.reshape(len(places), len(sets), -1).transpose(1, 0, 2)
+    all_on = sets.sum(axis=2)
+    rest = ((all_on - even.sum(axis=2)).mean(axis=0) ** 2).sum()
+    noise = (all_on.var(axis=0, ddof=1) / len(sets)).sum() * (1 - left.shape[1] / len(places))
+    return even + max(0.0, 1 - noise / rest) * (sets - even) if rest > 0 else sets
 
 
 def sees(directions, receiver_kind, normals):
@@ -246,7 +269,8 @@ class Transfer:
         self.prepare(candidates)
         sets = self.sets(candidates, zones, directions // SETS)
         return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]],
-                      {i: np.array([means(values[there]) for values in sets]) for i, (there, means) in self.cells.items()})
+                      {i: smoothed(np.array([means(values[there]) for values in sets]), self.receivers[i].cell_means(self.receivers[i].points))
+                       for i, (there, means) in self.cells.items()})
 
     def prepare(self, candidates):
         """Light straight from candidates, and before the first ones the points and the scenes of goals."""
