@@ -10,13 +10,14 @@ def curve_drawing(curves):
     """SVG of (name, seconds, watts): steps, from where a first layout is known to the end of the longest way."""
     first = math.floor(math.log10(min(s[0] for _, s, _ in curves)))
     last = math.ceil(math.log10(max(s[-1] for _, s, _ in curves)))
-    most = 1.1 * max(w[0] for _, _, w in curves)
+    # Layouts of several times the least watts would flatten what follows; lines come from above the drawing.
+    most = min(1.1 * max(w[0] for _, _, w in curves), 2.5 * min(w[-1] for _, _, w in curves))
 
     def x(seconds):
         return LEFT + (RIGHT - LEFT) * (math.log10(seconds) - first) / (last - first)
 
     def y(watts):
-        return BOTTOM - (BOTTOM - TOP) * watts / most
+        return BOTTOM - (BOTTOM - TOP) * min(1, watts / most)
 
     def text(at_x, at_y, words, anchor):
         return (f'<text x="{at_x:.1f}" y="{at_y:.1f}" text-anchor="{anchor}" stroke="white" stroke-width="3" stroke-linejoin="round" '
