@@ -12,6 +12,7 @@
 
 #include "rad_parser/binary/octree_file.h"
 #include "rad_parser/description_builder.h"
+#include "rad_parser/file_beside.h"
 #include "rad_parser/number.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
@@ -75,9 +76,9 @@ class SceneReader {
   void octreeFile(const std::string& name) {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
-      throw Error(
-          fmt::format("{}: cannot find octree file{}", printableName(name), options_.files.remark(name)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot find octree file{}", printableName(name),
+                              options_.files.remark(name, true)),
+                  Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
       throw Error(fmt::format("{}: cannot open octree file: {}", printableName(*found), std::strerror(errno)),
@@ -211,11 +212,12 @@ class SceneReader {
         const Transform nested =
             context.transform ? within(*context.transform, pass.transform) : pass.transform;
         for (const std::string& name : pass.files) {
-          const auto path = findFile(name, libraryPath(), context.directory, options_.files);
+          auto path = findFile(name, libraryPath(), context.directory, options_.files);
+          if (!path) path = fileBeside(builder_.description(), place, name, options_.files);
           if (!path)
             throw builder_.error(place,
                                  fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
-                                             options_.files.remark(name)),
+                                             options_.files.remark(name, true)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });

@@ -171,7 +171,7 @@ Interface sceneInterface(const FileAccess& access) {
              {"fprism_val", 3, bits({Dx, Dy, Dz, DxA, DyA, DzA}), fprismValue}};
   i.preludeName = "rayinit.cal";
   i.preludeText = kRayinit;
-  i.searched = [access](std::string_view file) { return access.remark(file); };
+  i.searched = [access](std::string_view file, bool inScene) { return access.remark(file, inScene); };
   return i;
 }
 

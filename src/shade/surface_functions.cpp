@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "rad_parser/file_beside.h"
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
@@ -112,14 +113,19 @@ class SurfaceFunctions::Maker {
                      given - rest.size() + coordinates, exception, given));
   }
 
-  // find: the path of a file on RAYPATH. contentsOf: the text of the file at a path.
+  // named: the name by which a file is found that this modifier names. find: its path, for such a name.
+  // contentsOf: the text of the file at a path.
+  std::string named(std::string_view name) const {
+    const rad::Description& d = scene_.description;
+    return rad::nameOfFile(d, d.primitives[modifier_.primitive].place, name, scene_.files);
+  }
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (isFolder(path.value_or(std::string(name)), scene_.files))
       fail(folderProblem(name, kind), rad::Status::system);
     if (!path)
       fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printableName(name),
-                       scene_.files.remark(name)),
+                       scene_.files.remark(name, true)),
            rad::Status::system);
     return *path;
   }
@@ -129,12 +135,15 @@ class SurfaceFunctions::Maker {
     return std::move(*text);
   }
 
+  // What a file of this kind contains: make(its path), unless another modifier has had it made.
   template <class T, class Read>
-  static std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, const Read& make) {
-    const auto found = cache.find(name);
+  std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, std::string_view kind,
+                                  const Read& make) const {
+    const std::string file = named(name);
+    const auto found = cache.find(file);
     if (found != cache.end()) return found->second;
-    auto thing = std::make_shared<const T>(make());
-    cache.emplace(name, thing);
+    auto thing = std::make_shared<const T>(make(find(file, kind)));
+    cache.emplace(file, thing);
     return thing;
   }
 
@@ -149,8 +158,7 @@ class SurfaceFunctions::Maker {
   }
 
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
-    return shared(functions_.data_, name, [&] {
-      const std::string path = find(name, "data");
+    return shared(functions_.data_, name, "data", [&](const std::string& path) {
       const std::string text = contentsOf(path, "data");
       return placed([&] { return rad::DataFile::parse(text, path); });
     });
@@ -158,16 +166,15 @@ class SurfaceFunctions::Maker {
 
   template <class T>
   std::shared_ptr<const T> picture(Cache<T>& cache, std::string_view name) const {
-    return shared(cache, name, [&] {
-      const std::string path = find(name, "picture");
-      return placed([&] { return T::read(path); });
-    });
+    return shared(cache, name, "picture",
+                  [&](const std::string& path) { return placed([&] { return T::read(path); }); });
   }
 
+  // The request refers to the name of the function file until the next one.
   calc::Request request(std::string_view file) const {
     calc::Request r;
     r.place = scene_.place(modifier_.primitive);
-    r.file = file;
+    r.file = functionFile_ = file == "." ? std::string(file) : named(file);
     r.available = available_;
     r.reals = arguments_.reals();
     return r;
@@ -347,15 +354,15 @@ class SurfaceFunctions::Maker {
     // The motion vectors are parallel or too short. RADIANCE compares the length of n x d with 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
-    const auto font = shared(functions_.fonts_, read.font, [&] {
-      const std::string path = find(read.font, "font"), contents = contentsOf(path, "font");
+    const auto font = shared(functions_.fonts_, read.font, "font", [&](const std::string& path) {
+      const std::string contents = contentsOf(path, "font");
       return placed([&] { return rad::FontFile::parse(contents, path); });
     });
     std::vector<std::string> lines;
     if (!read.words.empty())
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
     else
-      lines = linesOf(contentsOf(find(read.file, "text"), "text"));
+      lines = linesOf(contentsOf(find(named(read.file), "text"), "text"));
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
     std::copy(read.background.begin(), read.background.end(), background.begin());
@@ -429,8 +436,7 @@ class SurfaceFunctions::Maker {
   std::unique_ptr<Function> makeFrom(const BsdfArguments& read) const {
     auto f = std::make_unique<Function>();
     Scatterer s;
-    s.bsdf = shared(functions_.bsdfs_, read.data, [&] {
-      const std::string path = find(read.data, "BSDF");
+    s.bsdf = shared(functions_.bsdfs_, read.data, "BSDF", [&](const std::string& path) {
       return BsdfData(rad::BsdfFile::parse(contentsOf(path, "BSDF"), path, functions_.warn_), path,
                       functions_.warn_);
     });
