@@ -471,6 +471,7 @@ class SurfaceFunctions::Maker {
   const Scene& scene_;
   const Modifier& modifier_;
   PrimitiveArguments arguments_;
+  mutable std::string functionFile_;
   uint64_t available_ = calc::kPointInputs;
 };
 
@@ -478,7 +479,11 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   if (isFolder(path.value_or(std::string(name)), access))
     throw rad::Error(folderProblem(name, "function"), rad::Status::system);
-  if (!path) return std::nullopt;
+  if (!path) {
+    if (const auto text = calc::builtInFile(name))
+      return calc::SourceText{std::string(name), std::string(*text)};
+    return std::nullopt;
+  }
   auto text = readFile(*path);
   if (!text) return std::nullopt;
   return calc::SourceText{*path, std::move(*text)};
