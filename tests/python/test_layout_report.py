@@ -166,6 +166,15 @@ class Reports(InAFolder):
         self.assertIn("@media print", page.toxml())
         self.assertRegex(run_here([built("rsphere-layout"), "--activities"]).stdout, r"(?m)^5\.26\.2 Writing.*: 500 lx, U_o 0\.60, UGR 19; at eyes")
 
+    def test_data_beside_the_scene(self):
+        """Luminaires whose data lie beside them, in another folder, are dimmed."""
+        self.file("1 0 9 2 1 1\n", "even.dat")
+        text = ROOM + lamp().replace("void light tube", "void brightdata even 4 noop even.dat . Px 0 0\neven light tube")
+        tasks, room = self.file("task floor 5.1.1 height .2 margin 1\nluminaire tube watts 9\neyes spacing 4\n", "tasks.txt"), self.file(text, "room.rad")
+        run = run_here([built("rsphere-layout"), "--report", "--accuracy", ".1", "-b", "0", "-o", self.folder.name, tasks, room])
+        self.assertEqual(run.stderr, "")
+        self.assertIn("floor", run.stdout)
+
     def test_activities_by_name(self):
         for words, number in (("34.2", "34.2"), ("5.26.2", "5.26.2"), ("Writing", "34.2"), ("data processing", "34.2"), ("MEETING ROOM", "34.5"),
                               ("classroom", "44.1"), ("kitchen", "5.29.2"), ("corridors", "5.1.1"), ("archives", "5.26.7")):
