@@ -117,7 +117,7 @@ struct Drawn : SphereSetting {
       : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
         pictures(*transport, picturesWith(bounces)),
         sources(pictures.prepared()),
-        map(projection, {.width = width, .opening = 90}) {
+        map(projection, {.width = width, .opening = 80}) {
     SphereOptions o = options.sphere;
     o.baseDirections = 4096;
     o.mostDirections = 8192;
@@ -201,7 +201,8 @@ TEST(PointPicture, SmallSourcesAreNeitherLostNorPaintedTooLarge) {
     const double exact = 1e4 * kPi * radius * radius / V3d(1, 2, .5).length2();
     for (const Projection projection :
          {Projection::latitudeLongitude, Projection::angularFisheye, Projection::perspective}) {
-      const Drawn drawn(lamp, V3d(0, 0, 0), 0, projection, 128);
+      const int width = projection == Projection::perspective ? 32 : 128;  // pixels of equal size
+      const Drawn drawn(lamp, V3d(0, 0, 0), 0, projection, width);
       EXPECT_NEAR(drawn.integral() / exact, 1, .01) << radius;
       const double there = drawn.map.solidAngle(*drawn.map.pixelOf(V3d(1, 2, .5).normalized()));
       EXPECT_NEAR(drawn.towards(V3d(1, 2, .5)) / std::min(1e4, exact / there), 1, .3) << radius;
@@ -211,7 +212,7 @@ TEST(PointPicture, SmallSourcesAreNeitherLostNorPaintedTooLarge) {
     EXPECT_EQ(hidden.integral(), 0);
     const std::string behind =
         fmt::format("void light lamp 0 0 3 1e4 1e4 1e4\nlamp sphere l 0 0 4 1 -2 .5 {}\n", radius);
-    EXPECT_EQ(Drawn(behind, V3d(0, 0, 0), 0, Projection::perspective, 128).integral(), 0);
+    EXPECT_EQ(Drawn(behind, V3d(0, 0, 0), 0, Projection::perspective, 32).integral(), 0);
   }
 }
 
