@@ -3,8 +3,8 @@
 #include <cstring>
 #include <unordered_set>
 
-#include "rad_parser/file_beside.h"
 #include "rad_parser/open_file.h"
+#include "rad_parser/scene_file.h"
 
 namespace rsphere {
 

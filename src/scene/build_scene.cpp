@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/overloaded.h"
-#include "rad_parser/file_beside.h"
 #include "scene/arguments.h"
 #include "scene/contributors.h"
 #include "scene/modifier_builder.h"

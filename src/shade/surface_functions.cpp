@@ -8,10 +8,10 @@
 #include <optional>
 #include <system_error>
 
-#include "rad_parser/file_beside.h"
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
+#include "rad_parser/scene_file.h"
 #include "shade/function_file.h"
 
 namespace rsphere {
