@@ -70,11 +70,13 @@ bool FileAccess::allows(const std::string& path) const {
                      [&](const std::string& folder) { return file.native().starts_with(folder); });
 }
 
-std::string FileAccess::remark(std::string_view name) const {
+std::string FileAccess::remark(std::string_view name, bool inScene) const {
   if (folders_) return " (with -Sc- in the folders of the scene files and of RAYPATH only)";
-  if (name.empty() || standsAlone(name)) return {};
-  if (std::getenv("RAYPATH") != nullptr) return " in the folders of RAYPATH: " + libraryPath();
-  return " in " + libraryPath() + ": RAYPATH, the folders to look in, is not set";
+  if (name.empty() || name[0] == '/' || name[0] == '~') return {};
+  if (name[0] == '.') return inScene ? " in the current folder or beside the scene file" : "";
+  const std::string beside = inScene ? ", or beside the scene file" : "";
+  if (std::getenv("RAYPATH") != nullptr) return " in the folders of RAYPATH: " + libraryPath() + beside;
+  return " in " + libraryPath() + beside + ": RAYPATH, the folders to look in, is not set";
 }
 
 std::string libraryPath() {

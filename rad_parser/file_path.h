@@ -22,8 +22,9 @@ class FileAccess {
 
   bool allows(const std::string& path) const;
   // The end of a message about a file that was not found: the allowed folders, if files are restricted; or
-  // the folders of RAYPATH, if a file of this name is searched there. Otherwise empty.
-  std::string remark(std::string_view name = {}) const;
+  // the folders in which a file of this name is searched. inScene: a scene file names it, so that its own
+  // folder is one of them. May be empty.
+  std::string remark(std::string_view name = {}, bool inScene = false) const;
 
  private:
   std::optional<std::vector<std::string>> folders_;  // links resolved; each ends with '/'

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -75,9 +76,9 @@ class SceneReader {
   void octreeFile(const std::string& name) {
     const std::optional<std::string> found = findFile(name, libraryPath(), {}, options_.files);
     if (!found)
-      throw Error(
-          fmt::format("{}: cannot find octree file{}", printableName(name), options_.files.remark(name)),
-          Status::system);
+      throw Error(fmt::format("{}: cannot find octree file{}", printableName(name),
+                              options_.files.remark(name, true)),
+                  Status::system);
     const OpenFile input(*found);
     if (input.descriptor() < 0)
       throw Error(fmt::format("{}: cannot open octree file: {}", printableName(*found), std::strerror(errno)),
@@ -211,11 +212,12 @@ class SceneReader {
         const Transform nested =
             context.transform ? within(*context.transform, pass.transform) : pass.transform;
         for (const std::string& name : pass.files) {
-          const auto path = findFile(name, libraryPath(), context.directory, options_.files);
+          auto path = findFile(name, libraryPath(), context.directory, options_.files);
+          if (!path) path = fileBeside(builder_.description(), place, name, options_.files);
           if (!path)
             throw builder_.error(place,
                                  fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
-                                             options_.files.remark(name)),
+                                             options_.files.remark(name, true)),
                                  Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
@@ -394,6 +396,28 @@ Description readOctree(const std::string& name, const ReadOptions& options) {
   SceneReader reader(options, true);
   reader.octreeFile(name);
   return reader.take();
+}
+
+std::optional<std::string> fileBeside(const Description& description, Place place, std::string_view name,
+                                      const FileAccess& access) {
+  if (name.empty() || name[0] == '/' || name[0] == '~') return {};
+  const SourceFile* file = &description.files[place.file];
+  while (file->name.starts_with('!')) {
+    if (file->from.file == SourceFile::kNoFile) return {};
+    file = &description.files[file->from.file];
+  }
+  const std::string folder = directoryOf(file->name);
+  const bool standsAlone = folder.starts_with('/') || folder.starts_with('.');
+  auto path = findFile(joinPath(standsAlone ? folder : "./" + folder, name), {}, {}, access);
+  std::error_code none;
+  if (path && std::filesystem::is_directory(*path, none)) path.reset();
+  return path;
+}
+
+std::string nameOfFile(const Description& description, Place place, std::string_view name,
+                       const FileAccess& access) {
+  if (findFile(name, libraryPath(), {}, access)) return std::string(name);
+  return fileBeside(description, place, name, access).value_or(std::string(name));
 }
 
 }  // namespace rad

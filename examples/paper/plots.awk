@@ -4,7 +4,7 @@ function begin_plot(title, low_x, high_x, low_y, high_y, label_x, label_y) {
   x0 = low_x; x1 = high_x; y0 = low_y; y1 = high_y
   svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 360\" font-family=\"sans-serif\" font-size=\"12\">\n" \
     "<rect width=\"640\" height=\"360\" fill=\"white\"/>\n" text(60, 22, title, "start") text(340, 350, label_x, "middle") \
-    "<text transform=\"translate(16 180) rotate(-90)\" text-anchor=\"middle\">" label_y "</text>\n"
+    "<text transform=\"translate(12 180) rotate(-90)\" text-anchor=\"middle\">" label_y "</text>\n"
 }
 function px(x) { return 60 + 560 * (x - x0) / (x1 - x0) }
 function py(y) { return 315 - 275 * (y - y0) / (y1 - y0) }

@@ -225,7 +225,7 @@ std::optional<Imath::V2d> Mesh::uv(uint32_t vertex) const {
 Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& access) {
   const std::optional<std::string> path = findFile(name, libraryPath(), {}, access);
   if (!path)
-    throw Error(fmt::format("{}: cannot find mesh file{}", printableName(name), access.remark(name)),
+    throw Error(fmt::format("{}: cannot find mesh file{}", printableName(name), access.remark(name, true)),
                 Status::system);
   const OpenFile file(*path);
   if (file.descriptor() < 0)

@@ -78,7 +78,7 @@ struct Library::Tables {
       throw Error(fmt::format("{}{}", place, error.what()), error.status());
     }
     throw Error(fmt::format("{}cannot find function file \"{}\"{}", place, printableName(file),
-                            interface.searched ? interface.searched(file) : ""),
+                            interface.searched ? interface.searched(file, !place.empty()) : ""),
                 Status::system);
   }
 

@@ -40,7 +40,8 @@ struct Interface {
   std::string_view preludeName;     // the file that is read first, into the shared context; empty: none
   std::string_view preludeText;     // used if that file does not exist
   // The end of a message about a function file that was not found (" in .:/usr/local/lib/ray"); may be empty.
-  std::function<std::string(std::string_view file)> searched{};
+  // inScene: whether a primitive names the file, not an option.
+  std::function<std::string(std::string_view file, bool inScene)> searched{};
 };
 
 // Finds and reads a function file. Empty if it does not exist. Throws Error, without the place of the

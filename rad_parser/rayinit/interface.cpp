@@ -170,8 +170,8 @@ Interface sceneInterface(const FileAccess& access) {
              {"source_phi", 1, bits({Dx, Dy}), sourcePhi},
              {"fprism_val", 3, bits({Dx, Dy, Dz, DxA, DyA, DzA}), fprismValue}};
   i.preludeName = "rayinit.cal";
-  i.preludeText = kRayinit;
-  i.searched = [access](std::string_view file) { return access.remark(file); };
+  i.preludeText = *builtInFile(i.preludeName);
+  i.searched = [access](std::string_view file, bool inScene) { return access.remark(file, inScene); };
   return i;
 }
 

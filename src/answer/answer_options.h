@@ -43,7 +43,7 @@ struct AnswerOptions {
   std::string program;             // argv[0] without its folder; for the header, like `words`
   std::vector<std::string> words;  // the command line between program and scene, with @file and $VAR replaced
   std::string picture;             // -Si  name of the pictures; empty: none
-  PictureForm pictureForm;         // -Siw -Sih -Sie
+  PictureForm pictureForm;         // -Siw -Siv -Sih -Sie
   RayOptions pictureRay;           // options of the pictures' rays
   bool listSpecial = false;        // -Sl  lists the special objects instead of answering records
   // work

@@ -37,9 +37,10 @@ class PictureMaker {
 };
 
 void PictureMaker::write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const {
-  const PixelMap map(
-      file.format() == PictureFormat::radiance ? Projection::angularFisheye : Projection::latitudeLongitude,
-      options_.pictureForm);
+  const bool isRadiance = file.format() == PictureFormat::radiance;
+  const Projection whole = isRadiance ? Projection::angularFisheye : Projection::latitudeLongitude;
+  const PixelMap map(options_.pictureForm.opening > 0 ? Projection::perspective : whole,
+                     options_.pictureForm);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options_.ray));
   PictureProgress progress(file.name(), report_,
@@ -52,7 +53,7 @@ void PictureMaker::write(PictureFile& file, const V3d& point, const std::functio
   const double white = options_.pictureForm.white / kPhotopicEfficacy;
   file.write(drawPoint(point, map, transport_, sources_, seed, forScreen, white, onward),
              provenance(options_, transport_.prepared().scene().description.header) +
-                 viewLine(point, options_.pictureForm.heading));
+                 (isRadiance ? map.viewLine(point) : std::string()));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "rad_parser/open_file.h"
+#include "rad_parser/scene_file.h"
 
 namespace rsphere {
 
@@ -79,7 +80,7 @@ void add(Fingerprint& print, const rad::Mesh& mesh) {
 uint64_t fingerprint(const Scene& scene) {
   Fingerprint print;
   const rad::Description& d = scene.description;
-  std::unordered_set<uint32_t> seen;
+  std::unordered_set<uint64_t> seen;
   for (const rad::Primitive& p : d.primitives) {
     print.add(static_cast<uint64_t>(p.type));
     print.add(uint64_t{static_cast<uint32_t>(p.modifier.number())} << 32 |
@@ -89,9 +90,11 @@ uint64_t fingerprint(const Scene& scene) {
       for (const double x : d.reals(p)) print.add(x);
     for (size_t i = 0; i < p.strings; ++i) {
       print.add(d.string(p, i));
-      // The contents of octrees and meshes are already part of the scene.
-      if (rad::isSurface(p.type) || !seen.insert(d.stringArgs[p.firstString + i]).second) continue;
-      addFile(print, d.string(p, i), scene.files);
+      // The contents of octrees and meshes are already part of the scene. The same name may be that of
+      // another file in another scene file.
+      if (rad::isSurface(p.type)) continue;
+      if (!seen.insert(uint64_t{p.place.file} << 32 | d.stringArgs[p.firstString + i]).second) continue;
+      addFile(print, rad::nameOfFile(d, p.place, d.string(p, i), scene.files), scene.files);
     }
   }
   for (const Surface& s : scene.surfaces) {

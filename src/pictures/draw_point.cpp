@@ -67,7 +67,8 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   SmallSources small{sources.findImages(paths.point(), map.count(), 0), {}};
   // Pixels are smaller near the rim and the poles.
   for (SeenSources::Image& image : small.images) {
-    const double there = map.solidAngle(map.pixelOf(image.region.sample(.5, .5)));
+    const std::optional<size_t> pixel = map.pixelOf(image.region.sample(.5, .5));
+    const double there = pixel ? map.solidAngle(*pixel) : 0;
     const double pixels = there > 0 ? image.solidAngle / there : tuning::Pictures::kSmallest;
     image.rays =
         pixels < tuning::Pictures::kSmallest ? tuning::Pictures::kSmallest * std::max(1., pixels) : 0;
@@ -76,8 +77,9 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
                                     [](const auto& image) { return image.rays == 0; }),
                      small.images.end());
   for (const SeenSources::Sample& s : sources.sample(paths, small.images, seed)) {
-    if (!(s.direction.solidAngle > 0)) continue;
-    Spot& spot = small.spots[map.pixelOf(s.direction.direction)];
+    const std::optional<size_t> pixel = map.pixelOf(s.direction.direction);
+    if (!(s.direction.solidAngle > 0) || !pixel) continue;
+    Spot& spot = small.spots[*pixel];
     spot.solidAngle += s.direction.solidAngle;
     spot.light += irradianceFrom(s.direction.value, s.direction.solidAngle);
   }

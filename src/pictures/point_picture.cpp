@@ -27,8 +27,11 @@ PixelMap::PixelMap(Projection projection, const PictureForm& form)
       cosine_(std::cos(turnOf(form.heading))),
       sine_(std::sin(turnOf(form.heading))) {
   const bool fisheye = projection == Projection::angularFisheye;
+  const bool perspective = projection == Projection::perspective;
   width_ = form.width > 0 ? form.width : fisheye ? tuning::Pictures::kFisheyeSide : 1024;
-  height_ = fisheye ? width_ : std::max(1, width_ / 2);
+  height_ = fisheye ? width_ : std::max(1, perspective ? width_ * 3 / 4 : width_ / 2);
+  if (perspective) right_ = std::tan(form.opening * (pi / 360));
+  up_ = right_ * height_ / width_;
 }
 
 std::optional<V3d> PixelMap::direction(double x, double y) const {
@@ -40,17 +43,22 @@ std::optional<V3d> PixelMap::direction(double x, double y) const {
     return turned(sine * std::sin(right), sine * std::cos(right), std::cos(polar));
   }
   const double right = 2 * x / width_ - 1, up = 1 - 2 * y / height_, radius = std::hypot(right, up);
+  if (projection_ == Projection::perspective) return turned(right_ * right, 1, up_ * up).normalized();
   if (radius > 1) return std::nullopt;
   const double sine = std::sin(pi * radius), scale = radius > 0 ? sine / radius : 0;
   return turned(right * scale, std::cos(pi * radius), up * scale);
 }
 
-size_t PixelMap::pixelOf(const V3d& world) const {
+std::optional<size_t> PixelMap::pixelOf(const V3d& world) const {
   const V3d d(cosine_ * world.x + sine_ * world.y, cosine_ * world.y - sine_ * world.x, world.z);
   double x = 0, y = 0;
   if (projection_ == Projection::latitudeLongitude) {
     x = (.5 + std::atan2(d.x, d.y) / (2 * pi)) * width_;
     y = std::acos(std::clamp(d.z, -1., 1.)) / pi * height_;
+  } else if (projection_ == Projection::perspective) {
+    if (!(std::abs(d.x) <= right_ * d.y && std::abs(d.z) <= up_ * d.y)) return std::nullopt;
+    x = (1 + d.x / (right_ * d.y)) / 2 * width_;
+    y = (1 - d.z / (up_ * d.y)) / 2 * height_;
   } else {
     const double sine = std::hypot(d.x, d.z), radius = std::atan2(sine, d.y) / pi;
     const double scale = sine > 0 ? radius / sine : 0;
@@ -67,10 +75,24 @@ double PixelMap::solidAngle(size_t pixel) const {
              column = static_cast<double>(pixel % static_cast<size_t>(width_));
   if (projection_ == Projection::latitudeLongitude)
     return 2 * pi / width_ * (std::cos(pi * row / height_) - std::cos(pi * (row + 1) / height_));
-  const double radius = std::hypot(2 * (column + .5) / width_ - 1, 2 * (row + .5) / height_ - 1);
+  const double right = 2 * (column + .5) / width_ - 1, up = 2 * (row + .5) / height_ - 1;
+  if (projection_ == Projection::perspective) {
+    const double distance = V3d(right_ * right, 1, up_ * up).length();
+    return 4 * right_ * up_ / static_cast<double>(count()) / (distance * distance * distance);
+  }
+  const double radius = std::hypot(right, up);
   if (radius > 1) return 0;
   const double square = 2 * pi / width_ * (2 * pi / height_);
   return radius > 0 ? square * std::sin(pi * radius) / (pi * radius) : square;
+}
+
+std::string PixelMap::viewLine(const V3d& p) const {
+  const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9 + 0.; };  // + 0.: not -0
+  const bool perspective = projection_ == Projection::perspective;
+  const auto opening = [&](double reach) { return perspective ? rounded(std::atan(reach) * 360 / pi) : 360; };
+  return fmt::format("VIEW= -vt{} -vp {} {} {} -vd {} {} 0 -vu 0 0 1 -vh {} -vv {} -vo 0 -va 0 -vs 0 -vl 0\n",
+                     perspective ? 'v' : 'a', p.x, p.y, p.z, rounded(-sine_), rounded(cosine_),
+                     opening(right_), opening(up_));
 }
 
 ToneCurve::ToneCurve(const Raster& raster, const PixelMap& map, double white)
@@ -122,14 +144,6 @@ void toScreen(Raster& raster, const ToneCurve& curve) {
     for (int c = 0; c < 3; ++c) color[c] = sRgb(color[c]);
     setValue(raster, pixel, color);
   }
-}
-
-std::string viewLine(const V3d& p, double heading) {
-  const double turn = turnOf(heading);
-  const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9 + 0.; };  // + 0.: not -0
-  return fmt::format(
-      "VIEW= -vta -vp {} {} {} -vd {} {} 0 -vu 0 0 1 -vh 360 -vv 360 -vo 0 -va 0 -vs 0 -vl 0\n", p.x, p.y,
-      p.z, rounded(-std::sin(turn)), rounded(std::cos(turn)));
 }
 
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-// Pictures of the view from a point in all directions: projections, exposure and names. draw_point.h draws
-// them.
+// Pictures of the view from a point, in all directions or in perspective: projections, exposure and names.
+// draw_point.h draws them.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,12 +18,16 @@ enum class Projection {
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
   // from +y is proportional to the distance from the middle, and reaches pi at the rim. The corners are
   // black.
-  angularFisheye
+  angularFisheye,
+  // What a camera shows that is held level: RADIANCE's view -vtv -vd 0 1 0 -vu 0 0 1. Vertical edges are
+  // vertical.
+  perspective
 };
 
 // The form of pictures, as options give it.
 struct PictureForm {
   int width = 0;        // -Siw  pixels; 0: see PixelMap
+  double opening = 0;   // -Siv  horizontal angle of a perspective view (degrees); 0: the whole sphere
   double heading = 90;  // -Sih  azimuth of the middle (degrees, counterclockwise from +x)
   double white = 0;     // -Sie  luminance that is shown as white (cd/m2); 0: see ToneCurve
 };
@@ -31,7 +35,8 @@ struct PictureForm {
 class PixelMap {
  public:
   // The projections are described for the heading 90; others turn them about z. Without a width, there are
-  // about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye).
+  // about half a million pixels of .35 degrees (latitudeLongitude) or .45 degrees (angularFisheye), or three
+  // quarters of a million (perspective).
   explicit PixelMap(Projection projection, const PictureForm& form = {});
 
   int width() const { return width_; }
@@ -40,18 +45,22 @@ class PixelMap {
   size_t count() const { return static_cast<size_t>(width_) * static_cast<size_t>(height_); }
 
   // The direction (unit, world) at a position in pixels from the upper left corner of the picture. The
-  // middles of pixels have half-integer coordinates. Empty outside the rim.
+  // middles of pixels have half-integer coordinates. Empty outside the rim of a fisheye.
   std::optional<V3d> direction(double x, double y) const;
-  // The pixel that shows a direction (unit); pixels are numbered row by row.
-  size_t pixelOf(const V3d& direction) const;
-  // The solid angle of a pixel, sr: exact for latitudeLongitude, to first order in the pixel's width for
-  // angularFisheye; 0 outside the rim.
+  // The pixel that shows a direction (unit); pixels are numbered row by row. Empty outside the picture.
+  std::optional<size_t> pixelOf(const V3d& direction) const;
+  // The solid angle of a pixel, sr: exact for latitudeLongitude, otherwise to first order in the pixel's
+  // width; 0 outside the rim of a fisheye.
   double solidAngle(size_t pixel) const;
+  // The header line of a RADIANCE picture from this point that describes the view, including its line end.
+  // REQUIRES another projection than latitudeLongitude, which no view of RADIANCE is.
+  std::string viewLine(const V3d& point) const;
 
  private:
   Projection projection_;
   int width_, height_;
-  double cosine_, sine_;  // of the angle from +y to the heading
+  double cosine_, sine_;       // of the angle from +y to the heading
+  double right_ = 0, up_ = 0;  // perspective: how far it reaches at distance 1
 };
 
 inline V3d valueAt(const Raster& raster, size_t pixel) {
@@ -91,8 +100,5 @@ void toScreen(Raster& raster, const ToneCurve& curve);
 // rad::Error if there is any other %, or if a record after the first has no %d, because its picture would
 // overwrite the previous one.
 std::string pictureName(const std::string& pattern, uint64_t record);
-
-// The header line of a RADIANCE picture that describes the angular fisheye view, including its line end.
-std::string viewLine(const V3d& point, double heading);
 
 }  // namespace rsphere

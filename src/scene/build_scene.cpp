@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/overloaded.h"
@@ -186,11 +188,19 @@ class Builder {
     scene_.groups.push_back({{firstSurface, scene_.surfaces.size() - firstSurface}});
   }
 
-  // The index of a file in `files`, in the order of first use.
-  static uint32_t numberOf(const std::string& file, PrimitiveId i, std::vector<NamedFile>& files,
-                           std::unordered_map<std::string, uint32_t>& numbers) {
-    const auto [at, isNew] = numbers.try_emplace(file, static_cast<uint32_t>(files.size()));
-    if (isNew) files.push_back({file, i});
+  // The index of a file in `files`, in the order of first use. numbers: by name and the file that names it,
+  // because many instances may name the same file.
+  uint32_t numberOf(const std::string& name, PrimitiveId i, std::vector<NamedFile>& files,
+                    std::map<std::pair<uint32_t, std::string>, uint32_t>& numbers) const {
+    const rad::Place place = primitive(i).place;
+    const auto [at, isNew] = numbers.try_emplace({place.file, name});
+    if (isNew) {
+      const std::string file = rad::nameOfFile(scene_.description, place, name, options_.files);
+      const auto known =
+          std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.file == file; });
+      at->second = static_cast<uint32_t>(known - files.begin());
+      if (known == files.end()) files.push_back({file, i});
+    }
     return at->second;
   }
 
@@ -325,7 +335,7 @@ class Builder {
   ModifierBuilder modifiers_;
   uint32_t firstPrimitive_ = 0;  // of the file that is being converted
   std::vector<NamedFile> octrees_, meshes_;
-  std::unordered_map<std::string, uint32_t> octreeNumbers_, meshNumbers_;
+  std::map<std::pair<uint32_t, std::string>, uint32_t> octreeNumbers_, meshNumbers_;
   std::unordered_map<PrimitiveId, uint32_t> finishOf_;
 };
 

@@ -11,6 +11,7 @@
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
+#include "rad_parser/scene_file.h"
 #include "shade/function_file.h"
 
 namespace rsphere {
@@ -113,14 +114,19 @@ class SurfaceFunctions::Maker {
                      given - rest.size() + coordinates, exception, given));
   }
 
-  // find: the path of a file on RAYPATH. contentsOf: the text of the file at a path.
+  // named: the name by which a file is found that this modifier names. find: its path, for such a name.
+  // contentsOf: the text of the file at a path.
+  std::string named(std::string_view name) const {
+    const rad::Description& d = scene_.description;
+    return rad::nameOfFile(d, d.primitives[modifier_.primitive].place, name, scene_.files);
+  }
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
     if (isFolder(path.value_or(std::string(name)), scene_.files))
       fail(folderProblem(name, kind), rad::Status::system);
     if (!path)
       fail(fmt::format("cannot find {} file \"{}\"{}", kind, rad::printableName(name),
-                       scene_.files.remark(name)),
+                       scene_.files.remark(name, true)),
            rad::Status::system);
     return *path;
   }
@@ -130,12 +136,15 @@ class SurfaceFunctions::Maker {
     return std::move(*text);
   }
 
+  // What a file of this kind contains: make(its path), unless another modifier has had it made.
   template <class T, class Read>
-  static std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, const Read& make) {
-    const auto found = cache.find(name);
+  std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, std::string_view kind,
+                                  const Read& make) const {
+    const std::string file = named(name);
+    const auto found = cache.find(file);
     if (found != cache.end()) return found->second;
-    auto thing = std::make_shared<const T>(make());
-    cache.emplace(name, thing);
+    auto thing = std::make_shared<const T>(make(find(file, kind)));
+    cache.emplace(file, thing);
     return thing;
   }
 
@@ -150,8 +159,7 @@ class SurfaceFunctions::Maker {
   }
 
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
-    return shared(functions_.data_, name, [&] {
-      const std::string path = find(name, "data");
+    return shared(functions_.data_, name, "data", [&](const std::string& path) {
       const std::string text = contentsOf(path, "data");
       return placed([&] { return rad::DataFile::parse(text, path); });
     });
@@ -159,16 +167,15 @@ class SurfaceFunctions::Maker {
 
   template <class T>
   std::shared_ptr<const T> picture(Cache<T>& cache, std::string_view name) const {
-    return shared(cache, name, [&] {
-      const std::string path = find(name, "picture");
-      return placed([&] { return T::read(path); });
-    });
+    return shared(cache, name, "picture",
+                  [&](const std::string& path) { return placed([&] { return T::read(path); }); });
   }
 
+  // The request refers to the name of the function file until the next one.
   calc::Request request(std::string_view file) const {
     calc::Request r;
     r.place = scene_.place(modifier_.primitive);
-    r.file = file;
+    r.file = functionFile_ = file == "." ? std::string(file) : named(file);
     r.available = available_;
     r.reals = arguments_.reals();
     return r;
@@ -327,15 +334,15 @@ class SurfaceFunctions::Maker {
     // The motion vectors are parallel or too short. RADIANCE compares the length of n x d with 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
-    const auto font = shared(functions_.fonts_, read.font, [&] {
-      const std::string path = find(read.font, "font"), contents = contentsOf(path, "font");
+    const auto font = shared(functions_.fonts_, read.font, "font", [&](const std::string& path) {
+      const std::string contents = contentsOf(path, "font");
       return placed([&] { return rad::FontFile::parse(contents, path); });
     });
     std::vector<std::string> lines;
     if (!read.words.empty())
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
     else
-      lines = linesOf(contentsOf(find(read.file, "text"), "text"));
+      lines = linesOf(contentsOf(find(named(read.file), "text"), "text"));
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
     std::copy(read.background.begin(), read.background.end(), background.begin());
@@ -402,8 +409,7 @@ class SurfaceFunctions::Maker {
 
   void makeFrom(const BsdfArguments& read) const {
     Scatterer s;
-    s.bsdf = shared(functions_.bsdfs_, read.data, [&] {
-      const std::string path = find(read.data, "BSDF");
+    s.bsdf = shared(functions_.bsdfs_, read.data, "BSDF", [&](const std::string& path) {
       return BsdfData(rad::BsdfFile::parse(contentsOf(path, "BSDF"), path, functions_.warn_), path,
                       functions_.warn_);
     });
@@ -434,6 +440,7 @@ class SurfaceFunctions::Maker {
   const Scene& scene_;
   const Modifier& modifier_;
   PrimitiveArguments arguments_;
+  mutable std::string functionFile_;
   uint64_t available_ = calc::kPointInputs;
   std::unique_ptr<Function> made_ = std::make_unique<Function>();
 };
@@ -442,7 +449,11 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
   const auto path = rad::findFile(name, rad::libraryPath(), {}, access);
   if (isFolder(path.value_or(std::string(name)), access))
     throw rad::Error(folderProblem(name, "function"), rad::Status::system);
-  if (!path) return std::nullopt;
+  if (!path) {
+    if (const auto text = calc::builtInFile(name))
+      return calc::SourceText{std::string(name), std::string(*text)};
+    return std::nullopt;
+  }
   auto text = readFile(*path);
   if (!text) return std::nullopt;
   return calc::SourceText{*path, std::move(*text)};

@@ -16,7 +16,7 @@ import rsphere
 from rsphere.fault import Fault
 from rsphere.layout.dimming import dimmed
 from rsphere.layout.forward import BEYOND
-from rsphere.layout.limits import ACTIVITIES
+from rsphere.layout.limits import ACTIVITIES, activities_named
 from rsphere.layout.report import GAZES, Report, Row
 from rsphere.layout.room import distance
 from rsphere.layout.tasks import Lamps
@@ -166,11 +166,35 @@ class Reports(InAFolder):
         self.assertIn("@media print", page.toxml())
         self.assertRegex(run_here([built("rsphere-layout"), "--activities"]).stdout, r"(?m)^5\.26\.2 Writing.*: 500 lx, U_o 0\.60, UGR 19; at eyes")
 
+    def test_data_beside_the_scene(self):
+        """Luminaires whose data lie beside them, in another folder, are dimmed."""
+        self.file("1 0 9 2 1 1\n", "even.dat")
+        text = ROOM + lamp().replace("void light tube", "void brightdata even 4 noop even.dat . Px 0 0\neven light tube")
+        tasks, room = self.file("task floor 5.1.1 height .2 margin 1\nluminaire tube watts 9\neyes spacing 4\n", "tasks.txt"), self.file(text, "room.rad")
+        run = run_here([built("rsphere-layout"), "--report", "--accuracy", ".1", "-b", "0", "-o", self.folder.name, tasks, room])
+        self.assertEqual(run.stderr, "")
+        self.assertIn("floor", run.stdout)
+
+    def test_activities_by_name(self):
+        for words, number in (("34.2", "34.2"), ("5.26.2", "5.26.2"), ("Writing", "34.2"), ("data processing", "34.2"), ("MEETING ROOM", "34.5"),
+                              ("classroom", "44.1"), ("kitchen", "5.29.2"), ("corridors", "5.1.1"), ("archives", "5.26.7")):
+            self.assertEqual([a.number for a in activities_named(words)], [number], words)
+        self.assertEqual([a.number for a in activities_named("room")], ["34.5", "44.1"])  # of 2021 alone
+        self.assertEqual(activities_named("typist"), [])
+        room = self.file(ROOM + lamp(), "room.rad")
+        rows = []
+        for activity in ("5.1.1", "circulation areas"):
+            tasks = self.file(f"maintenance .9\ntask floor {activity} height .2 margin 1\neyes spacing 4\n", "tasks.txt")
+            rows.append(run_here([built("rsphere-layout"), "--report", "--accuracy", ".1", "-b", "0", "-o", self.folder.name, tasks, room]).stdout.split("\n")[2:9])
+        self.assertEqual(*rows)
+
     def test_faults(self):
         room = self.file(ROOM + lamp(), "room.rad")
         for line, words in (
             ("task", "task needs the name of a surface"), ("task flor 34.2", 'no polygon or modifier "flor"; it has floor'),
-            ("task floor 99.9", 'no activity "99.9"; rsphere-layout --activities'), ("task floor", "needs the number of an activity"),
+            ("task floor 99.9", 'no activity "99.9"; rsphere-layout --activities'), ("task floor", "needs the number or the name of an activity"),
+            ("task floor typist height 1", 'no activity "typist"; rsphere-layout'), ("task floor work hight 1", 'no activity "work hight"'),
+            ("task floor classrooms height 1", '"classrooms" is part of 5.36.1 (Classrooms, tutorial rooms) and of 5.36.2 (Classrooms for'),
             ("task floor 34.2 hight 1", '"hight" is none of height, margin'), ("task floor 34.2 uniformity 2", "uniformity must be from 0 to 1"),
             ("task floor 34.2 margin 9", "no sensor fits"), ("task floor 34.2 ugr nan", "must be a number"), ("taks floor 34.2", '"taks" is none of'),
             ("maintenance 0", "maintenance factor must be from"), ("luminaire lamps watts 3\ntask floor 34.2", 'no light source has the modifier "lamps"; there are tube'),

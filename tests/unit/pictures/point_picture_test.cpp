@@ -45,7 +45,7 @@ TEST(PixelMap, AngularFisheyeIsRadiancesView) {
   EXPECT_LT((*map.direction(w, w / 2) - V3d(0, -1, 0)).length(), 1e-12);
   EXPECT_LT((*map.direction(.5 * w + .125 * w, w / 2) - V3d(1, 1, 0).normalized()).length(), 1e-12);
   EXPECT_FALSE(map.direction(.1 * w, .1 * w));
-  EXPECT_EQ(viewLine(V3d(1, -2.5, 1e-3), 90).find("VIEW= -vta -vp 1 -2.5 0.001 -vd 0 1 0 -vu 0 0 1 -vh 360"),
+  EXPECT_EQ(map.viewLine(V3d(1, -2.5, 1e-3)).find("VIEW= -vta -vp 1 -2.5 0.001 -vd 0 1 0 -vu 0 0 1 -vh 360"),
             0u);
 }
 
@@ -55,7 +55,30 @@ TEST(PixelMap, TheHeadingIsInTheMiddle) {
     EXPECT_LT((*map.direction(5, map.height() / 2.) - V3d(std::sqrt(3) / 2, .5, 0)).length(), 1e-12);
     EXPECT_LT((*map.direction(7.5, map.height() / 2.) - V3d(.5, -std::sqrt(3) / 2, 0)).length(), 1e-12);
   }
-  EXPECT_NE(viewLine(V3d(0, 0, 0), 30).find(" -vd 0.866025404 0.5 0 "), std::string::npos);
+  const PixelMap map(Projection::angularFisheye, {.heading = 30});
+  EXPECT_NE(map.viewLine(V3d(0, 0, 0)).find(" -vd 0.866025404 0.5 0 "), std::string::npos);
+}
+
+// What vwrays(1) gives for -vtv -vh 90 -vv 73.739795, towards +x.
+TEST(PixelMap, PerspectiveIsRadiancesView) {
+  const PixelMap map(Projection::perspective, {.width = 80, .opening = 90, .heading = 0});
+  ASSERT_EQ(map.width(), 80);
+  ASSERT_EQ(map.height(), 60);
+  EXPECT_LT((*map.direction(40, 30) - V3d(1, 0, 0)).length(), 1e-12);
+  EXPECT_LT((*map.direction(80, 30) - V3d(1, -1, 0).normalized()).length(), 1e-12);
+  EXPECT_LT((*map.direction(40, 0) - V3d(1, 0, .75).normalized()).length(), 1e-12);
+  EXPECT_LT((*map.direction(0, 60) - V3d(1, 1, -.75).normalized()).length(), 1e-12);
+  double sum = 0;
+  for (size_t pixel = 0; pixel < map.count(); ++pixel) {
+    sum += map.solidAngle(pixel);
+    ASSERT_EQ(map.pixelOf(*map.direction(.5 + pixel % 80, .5 + pixel / 80)), pixel);
+  }
+  // Of a rectangle of 2 x 1.5 at distance 1 before its middle.
+  EXPECT_NEAR(sum / (4 * std::asin(std::sin(kPi / 4) * .75 / std::hypot(1, .75))), 1, 1e-3);
+  for (const V3d& outside : {V3d(-1, 0, 0), V3d(1, 1.01, 0), V3d(1, 0, -.76), V3d(0, 1, 0)})
+    EXPECT_FALSE(map.pixelOf(outside.normalized()));
+  EXPECT_EQ(map.viewLine(V3d(1, 2, 3)),
+            "VIEW= -vtv -vp 1 2 3 -vd 1 0 0 -vu 0 0 1 -vh 90 -vv 73.739795292 -vo 0 -va 0 -vs 0 -vl 0\n");
 }
 
 TEST(PixelMap, PixelsShowTheirDirectionsAndCoverTheSphere) {
@@ -94,7 +117,7 @@ struct Drawn : SphereSetting {
       : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
         pictures(*transport, picturesWith(bounces)),
         sources(pictures.prepared()),
-        map(projection, {.width = width}) {
+        map(projection, {.width = width, .opening = 80}) {
     SphereOptions o = options.sphere;
     o.baseDirections = 4096;
     o.mostDirections = 8192;
@@ -108,7 +131,7 @@ struct Drawn : SphereSetting {
     return drawPoint(point, map, pictures, sources, seed, false, 0, progress);
   }
   double at(size_t pixel) const { return raster.pixels[3 * pixel + 1]; }
-  double towards(const V3d& direction) const { return at(map.pixelOf(direction.normalized())); }
+  double towards(const V3d& direction) const { return at(*map.pixelOf(direction.normalized())); }
   double integral() const {
     double sum = 0;
     for (size_t pixel = 0; pixel < map.count(); ++pixel) sum += at(pixel) * map.solidAngle(pixel);
@@ -176,15 +199,20 @@ TEST(PointPicture, SmallSourcesAreNeitherLostNorPaintedTooLarge) {
     const std::string lamp =
         fmt::format("void light lamp 0 0 3 1e4 1e4 1e4\nlamp sphere l 0 0 4 1 2 .5 {}\n", radius);
     const double exact = 1e4 * kPi * radius * radius / V3d(1, 2, .5).length2();
-    for (const Projection projection : {Projection::latitudeLongitude, Projection::angularFisheye}) {
-      const Drawn drawn(lamp, V3d(0, 0, 0), 0, projection, 128);
+    for (const Projection projection :
+         {Projection::latitudeLongitude, Projection::angularFisheye, Projection::perspective}) {
+      const int width = projection == Projection::perspective ? 32 : 128;  // pixels of equal size
+      const Drawn drawn(lamp, V3d(0, 0, 0), 0, projection, width);
       EXPECT_NEAR(drawn.integral() / exact, 1, .01) << radius;
-      const double there = drawn.map.solidAngle(drawn.map.pixelOf(V3d(1, 2, .5).normalized()));
+      const double there = drawn.map.solidAngle(*drawn.map.pixelOf(V3d(1, 2, .5).normalized()));
       EXPECT_NEAR(drawn.towards(V3d(1, 2, .5)) / std::min(1e4, exact / there), 1, .3) << radius;
     }
     const Drawn hidden(lamp + "void plastic black 0 0 5 0 0 0 0 0\nblack ring r 0 0 8 .5 1 .25 1 2 .5 0 .3\n",
                        V3d(0, 0, 0), 0, Projection::latitudeLongitude, 128);
     EXPECT_EQ(hidden.integral(), 0);
+    const std::string behind =
+        fmt::format("void light lamp 0 0 3 1e4 1e4 1e4\nlamp sphere l 0 0 4 1 -2 .5 {}\n", radius);
+    EXPECT_EQ(Drawn(behind, V3d(0, 0, 0), 0, Projection::perspective, 32).integral(), 0);
   }
 }
 

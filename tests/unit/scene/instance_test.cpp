@@ -119,10 +119,10 @@ TEST(Instances, WhatIsWrongWithThem) {
   EXPECT_EQ(fault(instance(oct, "-s 1e-200")),
             "room.rad:1: instance \"placed\": the transform exceeds the range of numbers");
   EXPECT_EQ(fault(instance("none.oct"), rad::Status::system), "none.oct: cannot find octree file" +
-                                                                  rad::FileAccess().remark("none.oct") +
+                                                                  rad::FileAccess().remark("none.oct", true) +
                                                                   " (from room.rad:1: instance \"placed\")");
   EXPECT_EQ(fault(instance("none.rtm", "0", "void", "mesh"), rad::Status::system),
-            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm") +
+            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm", true) +
                 " (from room.rad:1: mesh \"placed\")");
   for (const char* light : {"void light lamp\n0\n0\n3 1 1 1\n", "void glow lamp\n0\n0\n4 1 1 1 5\n"}) {
     std::vector<std::string> warnings;

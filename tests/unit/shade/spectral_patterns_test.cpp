@@ -232,7 +232,7 @@ TEST(SpecfilePattern, NeedsOneDimension) {
             "room.rad:1: specfile \"P\": expected at most 1 string arguments, got 2");
   EXPECT_EQ(errorOf("void specfile P 1 none.dat 0 0"),
             "room.rad:1: specfile \"P\": cannot find data file \"none.dat\"" +
-                rad::FileAccess().remark("none.dat"));
+                rad::FileAccess().remark("none.dat", true));
   EXPECT_EQ(errorOf("void specfile P 1 /tmp 0 0"),
             "room.rad:1: specfile \"P\": \"/tmp\" is a folder, expected a data file");
 }

@@ -408,7 +408,7 @@ TEST_F(BsdfMaterials, ErrorsHaveTheirPlace) {
             "room.rad:1: BSDF \"m\": expected 0, 3, 6 or 9 real arguments, got 4");
   EXPECT_EQ(errorOf("void BSDF m 6 0 nowhere.xml 0 1 0 . 0 0"),
             "room.rad:1: BSDF \"m\": cannot find BSDF file \"nowhere.xml\"" +
-                rad::FileAccess().remark("nowhere.xml"));
+                rad::FileAccess().remark("nowhere.xml", true));
   EXPECT_EQ(errorOf("void BSDF m 8 0 half.xml 0 1 0 . -rz x 0 0"), "room.rad:1: BSDF \"m\": bad transform");
   write("bad.xml", "<WindowElement>\n</WindowElement>");
   EXPECT_EQ(errorOf("void BSDF m 6 0 " + folder_ + "/bad.xml 0 1 0 . 0 0"),

@@ -700,7 +700,7 @@ TEST_F(Patterns, WhatIsMissingIsSaidWithThePlaceWhenARayMeetsIt) {
     const std::string_view message(f.message), file = message.substr(message.rfind(' ') + 1);
     const bool isMissing = message.find("cannot find") != message.npos;
     EXPECT_EQ(errorOf(f.text, &status),
-              f.message + (isMissing ? rad::FileAccess().remark(file.substr(1, file.size() - 2)) : ""));
+              f.message + (isMissing ? rad::FileAccess().remark(file.substr(1, file.size() - 2), true) : ""));
     EXPECT_EQ(status, f.status) << f.message;
   }
   EXPECT_EQ(errorOf("void brightfunc P\n2 x none.cal\n0\n0\nvoid glow M\n0\n0\n4 1 1 1 0\n"), "no error")

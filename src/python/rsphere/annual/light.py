@@ -1,6 +1,6 @@
 """What sensors get of each patch of the sky and of the sun, in a room whose windows have shades: coefficients by passes of rays.
 
-- The sky: patches of patches.cal, of radiance 1; all bounces.
+- The sky: patches of reinhart.cal, of radiance 1; all bounces.
 - The sun: direct light by shadow rays to each of its positions in the hours, exact but for its width of half a degree;
   reflected light from positions on a grid of hours and seasons, between which it is interpolated.
 - Shades: each group of windows in either state, while all other groups are closed; what passes through closed ones is none.
@@ -23,8 +23,7 @@ from .verdicts import FROM, UNTIL, Year, estimated
 VISIBLE = np.array([0.265, 0.670, 0.065])  # shares of red, green and blue in what the eye sees
 SUN_WIDTH = 0.533  # degrees, RADIANCE's
 SUN_SOLID_ANGLE = 2 * np.pi * (1 - np.cos(np.radians(SUN_WIDTH / 2)))
-FACTOR = 3  # of patches.cal: Tregenza's patches are divided into 3 x 3; light through narrow windows errs by .2% (rms of hours)
-HERE = os.path.dirname(os.path.abspath(__file__))
+FACTOR = 3  # of reinhart.cal: Tregenza's patches are divided into 3 x 3; light through narrow windows errs by .2% (rms of hours)
 SKY = "void glow rsphere_sky 0 0 4 1 1 1 0\nrsphere_sky source rsphere_dome 0 0 4 0 0 1 360\n"
 DECLINATION = 23.45  # degrees, the largest
 SKY_WEIGHT, SUN_WEIGHT = 0.05, 0.3  # of a ray of a sensor, below which Russian roulette ends paths: least time for equal noise
@@ -114,9 +113,7 @@ class Pass:
         self.sensors, self.eyes, self.reflected_from, self.settings = sensors, eyes, reflected_from, settings
         exact = np.concatenate([to_sun, reflected_from])
         self.by_sky = scene("sky", ())
-        self.bins = {"files": os.path.join(folder, "patches.cal"), "expression": "patch", "count": "patches"}
-        with open(os.path.join(HERE, "patches.cal"), encoding="ascii") as stream, open(self.bins["files"], "w", encoding="ascii") as made:
-            made.write(stream.read().replace("factor : 4", f"factor : {FACTOR}"))
+        self.bins = {"files": "reinhart.cal", "parameters": f"MF={FACTOR}", "expression": "rbin", "count": "Nrbins"}
         self.by_sun = scene("sun", reflected_from) if len(exact) else None
         found = self.contributions(scene("direct", exact), exact, ambient_bounces=0) if len(exact) else np.zeros((len(sensors) + len(OBSERVERS) * len(eyes), 0))
         self.direct, self.direct_beside = found[:, : len(to_sun)], found[:, len(to_sun) :]

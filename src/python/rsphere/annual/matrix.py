@@ -40,7 +40,7 @@ def numbers_of(path, words, data, count):
 
 
 def read_coefficients(path):
-    """Illuminances for radiance 1, sensors by bins, and the factor of patches.cal. Raises Fault."""
+    """Illuminances for radiance 1, sensors by bins, and the factor of reinhart.cal. Raises Fault."""
     try:
         with open(path, "rb") as file:
             words, data = header_of(path, file.read())
@@ -57,7 +57,7 @@ def read_coefficients(path):
         raise fault(path, None, f"has coefficients of NCOMP={channels}, not of red, green and blue (3) or of one channel (1)")
     factor = round(math.sqrt(max(1, (bins - 2) / 144)))
     if bins != 144 * factor * factor + 2:
-        raise fault(path, None, f"has {bins} bins, but patches.cal and reinhart.cal have 146, 578, 1298, 2306 and so on")
+        raise fault(path, None, f"has {bins} bins, but reinhart.cal has 146, 578, 1298, 2306 and so on")
     coefficients = numbers_of(path, words, data, sensors * bins * channels).reshape(shape)
     if not np.isfinite(coefficients).all():
         raise fault(path, None, "has a coefficient that is not a finite number")

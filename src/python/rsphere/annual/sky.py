@@ -1,6 +1,6 @@
 """Luminance of patches of the sky, and the sun, hour by hour, from rows of a weather file.
 
-The patches are those of patches.cal: Tregenza's 145, each divided into factor x factor (Reinhart), and the ground as number 0.
+The patches are those of reinhart.cal: Tregenza's 145, each divided into MF x MF (Reinhart), here the factor, and the ground as number 0.
 
 - Perez, Seals, Michalsky 1993, "All-weather model for sky luminance distribution": how the sky's light is distributed
 - Perez, Ineichen, Seals, Michalsky, Stewart 1990, "Modeling daylight availability and irradiance components from direct and global

@@ -9,7 +9,7 @@ from ..photometry.lamp_rad import pattern_text, surfaces_text, turning_words, wo
 def write_lamps(design, candidates, chosen, levels, folder, name):
     """Writes the chosen luminaires at their levels into FOLDER/NAME.rad, and their data files beside it."""
     text = ("# Luminaires by rsphere-layout. The maintenance factor and the levels of the scene are in their light: a report on\n"
-            "# them has \"maintenance 1\". Their data files are in the folder of this file, which RAYPATH must name, as .:layout.\n")
+            "# them has \"maintenance 1\". Their data files are in the folder of this file, which RADIANCE needs in RAYPATH, as .:layout.\n")
     materials = {}
     for number, (j, level) in enumerate(zip(chosen, levels)):
         c = candidates[j]

@@ -94,3 +94,13 @@ for _edition, _rows in EDITIONS.items():
     for _row in _rows.strip().split("\n"):
         _number, _name, _task, _room = _row.split("; ")
         ACTIVITIES[_number] = Activity(_number, _name, f"EN 12464-1:{_edition}", *(float(v) for v in f"{_task} {_room}".split()))
+
+
+def activities_named(words):
+    """The activities of a number, of a whole name, or else of those with a part of it, in the latest edition that has any."""
+    if words in ACTIVITIES:
+        return [ACTIVITIES[words]]
+    part = words.casefold()
+    named = [a for a in ACTIVITIES.values() if part in a.name.casefold()]
+    named = [a for a in named if a.name.casefold() == part] or named
+    return [a for a in named if a.edition == named[0].edition]

@@ -14,6 +14,7 @@ from .forward import BEYOND
 from .glare import rating
 from .limits import BACKGROUND_WIDTH, MODELLING, SPATIAL_UNIFORMITY, SURROUNDING_UNIFORMITY, SURROUNDING_WIDTH
 from .room import LIFT, cells_of, distance, frame_of, inside, plan_of, read_polygons, standard_spacing
+from .steps import raypath
 from .tasks import read_tasks
 
 HEAD = 2.0  # m above the floor: nobody stands under what is lower
@@ -98,7 +99,9 @@ class Report:
         self.floor_level = max(p.corners[:, 2].max() for p in self.tasks.floor)
 
     def run(self):
-        with tempfile.TemporaryDirectory() as folder:
+        # Copies of the scene files are dimmed; what lies beside the files must be found.
+        beside = dict.fromkeys(os.path.dirname(file) for file in self.given.room)
+        with tempfile.TemporaryDirectory() as folder, raypath(*beside):
             files = dimmed(self.given.room, self.tasks.lamps, folder)
             self.light = Light(self.rsphere, self.rsphere.Scene(files), self.tasks.maintenance, self.given.accuracy)
             self.floor_points = self.floor_grid()

@@ -40,10 +40,10 @@ HARDLY_LIT = 0.02  # of what is wanted: less light than this from all candidates
 
 
 @contextlib.contextmanager
-def raypath(folder):
-    """RAYPATH with a folder in front."""
+def raypath(*folders):
+    """RAYPATH with folders in front."""
     before = os.environ.get("RAYPATH")
-    os.environ["RAYPATH"] = f"{os.path.abspath(folder)}:{before or '.'}"
+    os.environ["RAYPATH"] = ":".join([*map(os.path.abspath, folders), before or ".:/usr/local/lib/ray"])
     try:
         yield
     finally:

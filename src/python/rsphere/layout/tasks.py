@@ -5,7 +5,7 @@ import numpy as np
 
 from ..fault import fault
 from .design import Eye, Statements
-from .limits import ACTIVITIES, SURROUNDING_WIDTH
+from .limits import SURROUNDING_WIDTH, activities_named
 from .room import Polygon, names_matching, polygons_named, surface_of, upward
 
 LIMITS = {"illuminance": (0, 1e6), "uniformity": (0, 1), "ugr": (5, 40), "cylindrical": (0, 1e6), "walls": (0, 1e6), "ceiling": (0, 1e6)}
@@ -82,10 +82,8 @@ class TaskReader(Statements):
         return names or polygons_named(self.polygons, name, w.place)  # which raises the fault with names that are similar
 
     def read_task(self, w):
-        names, number = self.names(w), w.text("the number of an activity")
-        if number not in ACTIVITIES:
-            raise w.fault(f'there is no activity "{number[:20]}"; rsphere-layout --activities lists them')
         options = {"height": (-1e9, 1e9), "margin": (0, 1e9), "spacing": (1e-9, 1e9), "surrounding": (0, 1e9), **LIMITS}
+        names, activity = self.names(w), self.activity(w, {"back", *options})
         found, back = {}, False
         while w.more():
             key = w.text("an option")
@@ -95,13 +93,25 @@ class TaskReader(Statements):
                 found[key] = w.number(f"the {key}", *options[key])
             else:
                 raise w.fault(f'"{key[:40]}" is none of {", ".join(options)}, back')
-        activity = ACTIVITIES[number].changed({key: value for key, value in found.items() if key in LIMITS})
+        activity = activity.changed({key: value for key, value in found.items() if key in LIMITS})
         around = found.get("surrounding", SURROUNDING_WIDTH * self.found.units)
         for name in names:
             raised = [Polygon(name, p.modifier, p.corners + found.get("height", 0.0) * (-1 if back else 1) * p.vector() / np.linalg.norm(p.vector()))
                       for p in polygons_named(self.polygons, name, w.place)]
             surface = surface_of(raised, name, w.place, self.found.units, back, found.get("spacing"), found.get("margin", 0.0))
             self.found.tasks.append(Task(surface, activity, around))
+
+    def activity(self, w, options):
+        """The activity of a number, or of the words before the next option."""
+        words = w.text("the number or the name of an activity")
+        while not words[0].isdigit() and w.more() and not w.more_number() and w.words[w.next] not in options:
+            words += " " + w.text("an option")
+        activities = activities_named(words)
+        if not activities:
+            raise w.fault(f'there is no activity "{words[:40]}"; rsphere-layout --activities lists them')
+        if len(activities) > 1:
+            raise w.fault(f'"{words}" is part of {" and of ".join(f"{a.number} ({a.name})" for a in activities[:4])}: give the number')
+        return activities[0]
 
     def facing_room(self, w):
         """A surface for each polygon of a statement, its side that faces the middle of the scene."""

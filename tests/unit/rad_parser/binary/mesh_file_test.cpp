@@ -257,7 +257,7 @@ TEST(MeshFile, DamagedMeshes) {
   EXPECT_EQ(errorOfBytes(bytesOf(fixture("frozen.oct"))),
             "t.rtm: not a mesh: its header says FORMAT=Radiance_octree");
   EXPECT_EQ(errorOf([] { rad::readMesh("none.rtm"); }, Status::system),
-            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm"));
+            "none.rtm: cannot find mesh file" + rad::FileAccess().remark("none.rtm", true));
 }
 
 TEST(MeshFile, TheNumberBehindTheHeaderTellsAMesh) {

@@ -283,7 +283,7 @@ TEST(OctreeFile, WhatIsNoOctree) {
   EXPECT_EQ(errorOf([&] { readFile(folder.path("none.oct")); }, Status::system),
             folder.path("none.oct") + ": cannot open octree file: No such file or directory");
   EXPECT_EQ(errorOf([&] { rad::readOctree("none.oct"); }, Status::system),
-            "none.oct: cannot find octree file" + rad::FileAccess().remark("none.oct"));
+            "none.oct: cannot find octree file" + rad::FileAccess().remark("none.oct", true));
   EXPECT_EQ(errorOf([&] {
               rad::readScene(std::vector{text, fixture("frozen.oct")});
             }),

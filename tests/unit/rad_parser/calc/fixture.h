@@ -28,7 +28,9 @@ class Files {
       interface.hosts = hosts;
       interface.preludeName = "prelude.cal";
       interface.preludeText = prelude;
-      interface.searched = [](std::string_view file) { return " (not even \"" + std::string(file) + "\")"; };
+      interface.searched = [](std::string_view file, bool) {
+        return " (not even \"" + std::string(file) + "\")";
+      };
       const auto load = [this](std::string_view name) -> std::optional<SourceText> {
         const auto found = files.find(std::string(name));
         if (found == files.end()) return {};

@@ -174,7 +174,7 @@ TEST(CalcScene, MessagesSayWhereFilesWereLookedFor) {
     FAIL() << "a file that is not there was found";
   } catch (const Error& error) {
     EXPECT_EQ(error.what(),
-              "room.rad:3: cannot find function file \"gone.cal\"" + FileAccess().remark("gone.cal"));
+              "room.rad:3: cannot find function file \"gone.cal\"" + FileAccess().remark("gone.cal", true));
     EXPECT_EQ(error.status(), Status::system);
   }
 }

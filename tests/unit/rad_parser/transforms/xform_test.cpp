@@ -279,8 +279,9 @@ TEST(Xform, FaultsHaveThePlaceOfTheCommand) {
             "room.rad:2: xform: no file named: it would read standard input, which a scene must not");
   EXPECT_EQ(fault("-f - {0}"), "room.rad:2: xform: -f - would read standard input, which a scene must not");
   EXPECT_EQ(fault("{0} -f"), "room.rad:2: xform: missing file for -f");
-  EXPECT_EQ(errorOf([] { readText("!xform -mx no/such.rad\n"); }, rad::Status::system),
-            "room.rad:1: xform: cannot find file \"no/such.rad\"" + rad::FileAccess().remark("no/such.rad"));
+  EXPECT_EQ(
+      errorOf([] { readText("!xform -mx no/such.rad\n"); }, rad::Status::system),
+      "room.rad:1: xform: cannot find file \"no/such.rad\"" + rad::FileAccess().remark("no/such.rad", true));
   EXPECT_EQ(fault("-s 1e308 -s 10 {0}").substr(folder.path("p.rad").size()),
             ":1 (from room.rad:2): polygon \"p\": transformed arguments are not finite numbers");
 }
