@@ -9,9 +9,10 @@ import xml.dom.minidom
 
 import numpy as np
 
-from rsphere.annual.light import Light, Settings, SunGrid, check_sky
+from rsphere.annual.light import LEFT_OUT, Light, SunGrid, check_sky
+from rsphere.annual.passes import LoweredPass, Pass, Settings
 from rsphere.annual.sensors import draw_points, scene_files
-from rsphere.annual.shades import ALLOWED, LOWERED, TRANSMITTANCE, UP, group_of, states_by_rule
+from rsphere.annual.shades import ALLOWED, ALONG, LOWERED, TRANSMITTANCE, UP, divided, group_of, states_by_rule
 from rsphere.annual.sun import MONTHS, sun_position
 from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdicts_of
 from rsphere.annual.weather import Weather
@@ -299,6 +300,47 @@ class Closed(InAFolder):
         np.testing.assert_allclose(parts.year.open.mean(axis=0).sum(axis=1), together.sum(axis=1), rtol=0.04)
         np.testing.assert_allclose(parts.year.direct, self.light(text, sensors, hours, estimates=1).year.direct, atol=1e-6)
 
+    ROOM = BOX.replace("plastic black 0 0 5 0 0 0 0 0", "plastic black 0 0 5 .6 .5 .4 0 0") + \
+        "void glass pane 0 0 3 .9 .9 .9\npane polygon glazing 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n" + \
+        "void plastic grass 0 0 5 .1 .3 .05 0 0\ngrass polygon ground 0 0 12 -20 -20 -.1 20 -20 -.1 20 20 -.1 -20 20 -.1\n"
+
+    def test_blinds_by_their_parts(self):
+        """What passes through parts of blinds is what rays through all of them find, of sky and sun, at sensors and at eyes in color."""
+        room, sensors, eyes = self.scene(self.ROOM), np.array([[x, y, 0.8, 0, 0, 1.0] for x in (1, 3) for y in (0.7, 1.5, 3)]), np.array([[2, 3, 1.2, 0, -1, 0.0]])
+        group = group_of("pane=.1", read_polygons(room), sensors[:, :3])
+        self.assertEqual(len(group.parts), ALONG * ALONG // 2)
+        suns = np.array([[0.3, -0.8, 0.5], [-0.5, -0.4, 0.7]])
+        suns /= np.linalg.norm(suns, axis=1)[:, None]
+        common = (self.folder.name, "pass", sensors, eyes, np.zeros((0, 3)), suns, Settings(bounces=12, divisions=1024, sun_divisions=4096))
+        whole, parts = Pass(room, group.lowered, *common), LoweredPass(room, "", group, *common)
+        means = [[np.mean(kind, axis=0) for kind in zip(*(one.estimate(i) for i in range(4)))] for one in (whole, parts)]
+        (sky, sun), (sky_of_parts, sun_of_parts) = means
+        self.assertEqual(sky_of_parts.shape, sky.shape)
+        self.assertEqual(sun_of_parts.shape, sun.shape)
+        self.assertFalse(parts.direct.any())
+        for rows in (slice(len(sensors)), slice(len(sensors), None)):
+            np.testing.assert_allclose(sky_of_parts[rows, 1:].sum(), sky[rows, 1:].sum(), rtol=0.03)
+            np.testing.assert_allclose(sky_of_parts[rows, 0].sum(), sky[rows, 0].sum(), rtol=0.1)
+            np.testing.assert_allclose(sun_of_parts[rows].sum(axis=0), sun[rows].sum(axis=0), rtol=0.04)
+        np.testing.assert_allclose(sky_of_parts[: len(sensors)].sum(axis=1), sky[: len(sensors)].sum(axis=1), rtol=0.12, err_msg="each sensor")
+        alone = LoweredPass(room, "", group, *common[:3], np.zeros((0, 6)), *common[4:])
+        alone.keep(np.array([1, 4]))
+        np.testing.assert_array_equal(alone.estimate(0)[0], parts.estimate(0)[0][[1, 4]])
+
+    def test_blinds_that_are_not_divided(self):
+        """Panes of other shapes, and rooms with other openings, have rays through all of the blinds."""
+        sensors, hours = [[2, 1, 0.8, 0, 0, 1], [1, 2, 0.8, 0, 0, 1]], list(clear_days([(3, 21)]))
+        for pane, other, kind in (("12 1 0 1 1 0 2 3 0 2 3 0 1", "", LoweredPass), ("15 1 0 1 1 0 2 2 0 2 3 0 2 3 0 1", "", Pass),
+                                  ("12 1 0 1 1 0 2 3 0 2 3 0 1", "4 1.5 3", Pass)):
+            text = self.ROOM.replace("12 1 0 1 1 0 2 3 0 2 3 0 1", pane)
+            text = text.replace("12 0 0 3 0 4 3 4 4 3 4 0 3", f"12 0 0 3 0 4 3 4 4 3 {other or '4 0 3'}")
+            group = group_of("pane", read_polygons(self.scene(text)), np.array(sensors)[:, :3])
+            light = self.light(text, sensors, hours, [group], estimates=1)
+            self.assertIs(type(light.passes[0][LOWERED]), kind, pane)
+            self.assertIsNone(light.base)
+        many = [p for p in read_polygons(self.scene(self.ROOM)) if p.modifier == "pane"] * 200
+        self.assertEqual(len(divided(many, np.array(sensors)[:, :3])[0]), 200)
+
     def test_a_scene_with_a_roof_over_everything(self):
         text = BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\nblack sphere s 0 0 4 0 0 0 50\n"
         with self.assertRaisesRegex(Fault, "the scene has a sky, or something above all"):
@@ -447,6 +489,20 @@ class Grid(unittest.TestCase):
         self.assertLess(np.median(apart), 0.3)
         coefficients = np.arange(len(grid.directions), dtype=float)[None]
         self.assertEqual(grid.between(coefficients).shape, (1, len(to_sun)))
+
+    def test_positions_that_are_left_out(self):
+        """Those with little light: others stand for them, and nearly all of the light is interpolated as before."""
+        rows = [row for row in clear_days([(m, 11) for m in range(1, 13)]) if row[3]]
+        angles = np.array([sun_position(*row[:3], *PLACE) for row in rows]).T
+        to_sun = np.stack([np.cos(angles[0]) * np.sin(angles[1]), np.cos(angles[0]) * np.cos(angles[1]), np.sin(angles[0])], axis=1)
+        light = np.where(to_sun[:, 2] > 0.3, 1, 1e-5)
+        every, some = SunGrid(to_sun, PLACE[0], 5, 1), SunGrid(to_sun, PLACE[0], 5, 1, light)
+        self.assertLess(len(some.directions), len(every.directions))
+        np.testing.assert_allclose(some.weights.sum(axis=1), 1)
+        apart = np.abs(some.between(some.directions.T) - every.between(every.directions.T)).max(axis=0)
+        self.assertTrue(apart.any())
+        self.assertLess((apart * light).sum(), 2 * LEFT_OUT * light.sum())
+        self.assertEqual(len(SunGrid(np.zeros((0, 3)), PLACE[0], 5, 1, np.zeros(0)).directions), 0)
 
 
 if __name__ == "__main__":

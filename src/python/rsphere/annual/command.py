@@ -15,8 +15,9 @@ from ..progress import PROGRESS
 from . import outside
 from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
 from .glare import Glare
-from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
+from .light import ESTIMATES, Light, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
+from .passes import Settings
 from .report import Report
 from .sensors import read_sensors, scene_files, sensors_on
 from .shades import check_shapes, groups_of

@@ -12,7 +12,8 @@ import numpy as np
 import rsphere
 
 from ..progress import PROGRESS
-from .light import SUN_SOLID_ANGLE, VISIBLE, Light
+from .light import Light
+from .passes import SUN_SOLID_ANGLE, VISIBLE
 from .shades import LOWERED, UP
 from .verdicts import FROM, SURE, UNTIL, Verdict, estimated
 
