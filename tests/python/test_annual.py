@@ -89,7 +89,7 @@ class Annual(unittest.TestCase):
         self.assertEqual(self.light(epw('"P, Q"'), name="w.epw")[0], self.light(epw(), name="w.epw")[0])
 
     def test_a_part_of_a_year_is_said(self):
-        self.assertIn("has 24 hours, fewer than a year's 8760", self.light(WEA + "\n".join(DAY))[1])
+        self.assertIn("has 24 hours, fewer than a year's 8760; shares are of these hours", self.light(WEA + "\n".join(DAY))[1])
         self.refuse("w.wea:31: the hour is not after", WEA + "\n".join(400 * DAY))
 
     def test_coefficients_of_the_other_byte_order(self):
@@ -107,7 +107,7 @@ class Annual(unittest.TestCase):
         """The sun was down by day, and its light was left out without a word."""
         self.assertEqual(self.light(WEA + "\n".join(DAY))[1].count("\n"), 1)
         said = self.light(WEA.replace("time_zone -15", "time_zone 165") + "\n".join(DAY))[1]
-        self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light; are its latitude")
+        self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light, such as 6-1 at [0-9.]+ h; are its latitude")
 
     def test_kinds_of_coefficients(self):
         wea = WEA + "\n".join(DAY)

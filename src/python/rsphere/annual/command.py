@@ -107,11 +107,13 @@ def check_weather(file, weather, dark_sun):
     if missing:
         warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
     if n + missing < HOURS_OF_YEAR:
-        warn(file, f"has {n + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
+        warn(file, f"has {n + missing} hours, fewer than a year's {HOURS_OF_YEAR}; shares are of these hours")
     direct = np.array([row[3] for row in weather.hours])
     late = direct[dark_sun].sum() / max(direct.sum(), 1e-9)
     if late > LATE:
-        warn(file, f"{late:.0%} of the direct light is at hours without a sun or without diffuse light; are its latitude, longitude and time zone right?")
+        first = weather.hours[np.flatnonzero(dark_sun & (direct > 0))[0]]
+        warn(file, f"{late:.0%} of the direct light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at {first[2]:g} h; "
+                   "are its latitude, longitude and time zone right?")
 
 
 def check_units(file, weather):

@@ -223,9 +223,10 @@ class Light:
             off, lux, n = np.array([o for o, _ in self.off]), np.mean([lux for _, lux in self.off], axis=0), len(self.off)
             # Products of different estimates are free of the squared noise.
             square = (off.sum(axis=0) ** 2 - (off**2).sum(axis=0)) / max(1, n * (n - 1))
-            rms = np.sqrt(max(0.0, (square / np.maximum(lux, 1e-9) ** 2)[lux > 0].mean()))
+            mean = (square / np.maximum(lux, 1e-9) ** 2)[lux > 0].mean()
+            by = f"{np.sqrt(mean):.2%} (rms)" if mean > 0 else "less than noise does"
             yield (f"Direct sun is exact. Reflected sun is interpolated between {len(self.grid.directions)} positions, which changes the light of an "
-                   f"hour with sun by {rms:.2%} (rms), and that of all by {off.mean(axis=0).sum() / max(lux.sum(), 1e-9):+.2%}.")
+                   f"hour with sun by {by}, and that of all by {off.mean(axis=0).sum() / max(lux.sum(), 1e-9):+.2%}.")
         if self.states is None:
             yield "There are no shades: name windows by --shades, so that the rule of LM-83 lowers blinds."
         else:

@@ -35,7 +35,7 @@ def add_hour(hours, file, line, row):
     if hours and row[:3] <= hours[-1][:3]:
         raise fault(file, line, "the hour is not after the one before it; a file has one row for each hour of one year, in their order")
     if hours and row[:2] == hours[-1][:2] and row[2] - hours[-1][2] < SHORTEST:
-        raise fault(file, line, f"is {row[2] - hours[-1][2]:.2g} h after the row before it; each row must be an hour")
+        raise fault(file, line, f"is {row[2] - hours[-1][2]:.2g} h after the row before it; each row must be an hour: take means")
     hours.append(row)
 
 
