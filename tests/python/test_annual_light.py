@@ -422,7 +422,7 @@ class Closed(InAFolder):
         with self.command("-e", "2", "--on", "floor", "--spacing", "1.4", stderr=subprocess.PIPE) as run:
             out, err = run.communicate()
         self.assertEqual(run.returncode, 0, err)
-        self.assertRegex(err, r"\A.*w\.wea: has 72 hours, fewer than a year's 8760\n\Z")
+        self.assertRegex(err, r"\A.*w\.wea: has 72 hours, fewer than a year's 8760; shares are of these hours\n\Z")
         self.assertRegex(out, r"9 sensors; 72 hours of w\.wea, 30 from 8 to 18 h\.\n2 independent estimates")
         self.assertRegex(out, r"IES LM-83-12;.*:\nsDA 300 lx / 50% of 8 to 18 h +55%: nominally accepted +[0-9.]+% +[0-9.]+ +(yes|no)")
         folder = os.path.join(self.folder.name, "annual")
