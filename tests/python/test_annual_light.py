@@ -504,7 +504,7 @@ class Closed(InAFolder):
                 self.assertEqual((run.returncode, run.stdout, run.stderr.count("fatal")), (1, "", 1), run.stderr)
                 self.assertIn(said, run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1 + run.stderr.count("warning"))
-        for words, said in (([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
+        for words, said in (([*shades("pane", "sill"), "pane.rad"], "--shades sill: lowered, they change the light at no sensor"), ([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
                             ([*shades("pane"), "double.rad"], "--shades pane: glazing and outer are panes of one window, and both get blinds")):
             with self.subTest(words):
                 run = run_here([*start, *words])

@@ -182,8 +182,8 @@ class Light:
         base = base + self.base_direct
         if number == 0:
             # By the light of the sky alone: reflected sun has more rays where blinds are lowered.
-            self.idle = [g.name for g, (up, lowered) in zip(self.groups, self.passes)
-                         if np.array_equal(up.first_sky, lowered.first_sky)] if self.groups else []
+            self.idle = [g.name for g, (up, lowered) in zip(self.groups, self.passes) if np.array_equal(up.first_sky, lowered.first_sky)
+                         or lowered.first_sky.sum() < NEGLIGIBLE * g.transmittance * up.first_sky.sum()] if self.groups else []
         if self.states is None and len(self.passes[0]) > 1:
             w = self.year.weights
             self.states = states_by_rule(self.direct[:, :, : len(w)], np.einsum("i,gsih->gsh", w, parts[:, :, : len(w)]), w)

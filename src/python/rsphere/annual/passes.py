@@ -150,7 +150,6 @@ class LoweredPass:
         self.outside = self.scenes.scene("sky", text + group.further + SKY)
         self.by_sun = self.scenes.scene("sun", text + group.further + sun_text(reflected_from))
         self.direct = np.zeros((len(sensors) + len(OBSERVERS) * len(eyes), len(to_sun)))
-        self.first_sky = None  # the blinds are in front of panes, and change their light
 
     @cached_property
     def by_sky(self):
@@ -186,6 +185,8 @@ class LoweredPass:
     def estimate(self, number):
         light = self.through(number)
         sky = self.of_sky(light, number)
+        if number == 0:
+            self.first_sky = sky
         PROGRESS.advance()
         sun = np.zeros((len(sky), 0))
         if len(self.reflected_from):
