@@ -208,7 +208,8 @@ class Annual(unittest.TestCase):
         for words, said in (([], "needs --weather FILE"), (["--weather", "w"], "needs scene files, or --coeff"),
                             (["--weather", "w", "r.rad", "-d", "x"], "argument -d/--divisions: invalid int"),
                             (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
-                            (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"),
+                            (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"), (["w.epw", "r.rad"], "w.epw: cannot be read: No such file"),
+                            (["w.epw"], "needs scene files, or --coefficients alone"), (["r.rad", "w.epw"], "needs --weather FILE"),
                             (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both")):
             with self.subTest(words):
                 run = run_here([built("rsphere-annual"), *words])

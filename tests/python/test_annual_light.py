@@ -433,6 +433,21 @@ class Closed(InAFolder):
             self.assertTrue(out.startswith(stream.read()))
         xml.dom.minidom.parse(os.path.join(folder, "useful.svg"))
 
+    def test_a_room_without_windows(self):
+        """It is dark, which a warning says; nothing is divided by its light."""
+        with self.command("-e", "2", "--spacing", "4", stderr=subprocess.DEVNULL) as run:
+            run.communicate()  # this has written w.wea and room.rad
+        room = self.file(BLACK + "".join(f"black polygon {name} 0 0 12 {corners}\n" for name, corners in (
+            ("floor", "0 0 0 4 0 0 4 4 0 0 4 0"), ("top", "0 0 3 0 4 3 4 4 3 4 0 3"), ("a", "0 0 0 0 0 3 4 0 3 4 0 0"), ("b", "4 0 0 4 0 3 4 4 3 4 4 0"),
+            ("c", "4 4 0 4 4 3 0 4 3 0 4 0"), ("d", "0 4 0 0 4 3 0 0 3 0 0 0"))).replace(" 0 0 0 0 0\n", " .5 .5 .5 0 0\n", 1), "dark.rad")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        run = run_here([built("rsphere-annual"), "w.wea", room, "-d", "16", "-e", "2", "--spacing", "1"])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("16 of 16 get no light in the whole year", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 2, run.stderr)
+        self.assertNotIn("nan", run.stdout)
+
     def test_accuracy_adds_estimates(self):
         """Until noise turns no verdict, or the light of the year at a sensor is known as well as asked for."""
         found = {}

@@ -36,7 +36,7 @@ OFTEN, MANY = 0.1, 100  # share and number of hours from which on weather is sur
 TINY = 1e-6  # sum of a sensor's coefficients: nothing, or of the other byte order
 
 TEXT = """\
-Coefficients may also follow the weather alone: rsphere-annual town.epw sky.mtx.
+The weather may also come first, before a scene or coefficients alone: rsphere-annual town.epw room.rad.
 The scene has no sky; the weather (.epw or .wea) brings it. Verdicts are printed with their sources. They, what each sensor has,
 plans and a page for the browser (page.html) go into the folder of -o. rsphere-annual(1) describes the method."""
 
@@ -73,8 +73,10 @@ def arguments():
         value = getattr(given, name)
         if value is not None and not least <= value <= most:
             raise Fault(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
-    if not given.weather and len(given.scene) == 2 and given.scene[0].lower().endswith((".epw", ".wea")):
-        (given.weather, given.coefficients), given.scene = given.scene, []
+    if not given.weather and given.scene and given.scene[0].lower().endswith((".epw", ".wea")):
+        given.weather, *given.scene = given.scene
+        if len(given.scene) == 1 and not given.scene[0].lower().endswith((".rad", ".oct")):
+            given.coefficients, given.scene = given.scene[0], []
     if not given.weather:
         raise Fault("needs --weather FILE, the hours of a year: .epw or .wea")
     for name in ("sensors", "sunlight", "eyes", "coefficients"):

@@ -223,7 +223,7 @@ class Light:
             off, lux, n = np.array([o for o, _ in self.off]), np.mean([lux for _, lux in self.off], axis=0), len(self.off)
             # Products of different estimates are free of the squared noise.
             square = (off.sum(axis=0) ** 2 - (off**2).sum(axis=0)) / max(1, n * (n - 1))
-            mean = (square / np.maximum(lux, 1e-9) ** 2)[lux > 0].mean()
+            mean = (square / np.maximum(lux, 1e-9) ** 2)[lux > 0].mean() if lux.any() else 0
             by = f"{np.sqrt(mean):.2%} (rms)" if mean > 0 else "less than noise does"
             yield (f"Direct sun is exact. Reflected sun is interpolated between {len(self.grid.directions)} positions, which changes the light of an "
                    f"hour with sun by {by}, and that of all by {off.mean(axis=0).sum() / max(lux.sum(), 1e-9):+.2%}.")
