@@ -387,6 +387,7 @@ class Closed(InAFolder):
             np.testing.assert_allclose(sky_of_parts[rows, 0].sum(), sky[rows, 0].sum(), rtol=0.1)
             np.testing.assert_allclose(sun_of_parts[rows].sum(axis=0), sun[rows].sum(axis=0), rtol=0.04)
         np.testing.assert_allclose(sky_of_parts[: len(sensors)].sum(axis=1), sky[: len(sensors)].sum(axis=1), rtol=0.12, err_msg="each sensor")
+        np.testing.assert_allclose(parts.brightest_sun(256, 12)[: len(sensors)], sun_of_parts[: len(sensors)].max(axis=1), rtol=0.5)
         alone = LoweredPass(room, "", group, *common[:3], np.zeros((0, 6)), *common[4:])
         alone.keep(np.array([1, 4]))
         np.testing.assert_array_equal(alone.estimate(0)[0], parts.estimate(0)[0][[1, 4]])

@@ -182,14 +182,22 @@ class LoweredPass:
     def sky(self, number, divisions=None, bounces=None):
         return self.of_sky(self.through(number, divisions, bounces), number, divisions, bounces)
 
+    def of_suns(self, light, number, **options):
+        if not len(self.reflected_from):
+            return np.zeros((len(self.direct), 0))
+        return light(self.by_sun, names_of(self.reflected_from), None, dict(self.scenes.sun_options(number), **options))
+
+    def brightest_sun(self, divisions, bounces):
+        """About the most that one sun of radiance 1 gives the rows."""
+        light = self.through(0, divisions, bounces)
+        return self.of_suns(light, 0, ambient_divisions=divisions, ambient_bounces=bounces).max(axis=1, initial=0)
+
     def estimate(self, number):
         light = self.through(number)
         sky = self.of_sky(light, number)
         if number == 0:
             self.first_sky = sky
         PROGRESS.advance()
-        sun = np.zeros((len(sky), 0))
-        if len(self.reflected_from):
-            sun = light(self.by_sun, names_of(self.reflected_from), None, self.scenes.sun_options(number))
+        sun = self.of_suns(light, number)
         PROGRESS.advance()
         return sky, sun
