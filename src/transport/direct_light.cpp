@@ -251,9 +251,12 @@ void DirectLight::addOneOf(Receiver at, size_t first, uint32_t count, Radiance& 
   size_t chosen = first;
   while (chosen + 1 < count && (rest -= rankedBrightness(chosen)) >= 0) ++chosen;
   Contribution& c = ranked(chosen);
+  // In the coefficient, so that an observer of contributions gets it, too.
+  const double factor = scratch_.remaining[first] / rankedBrightness(chosen);
+  c.coefficient *= factor;
+  if (!scratch_.ofLobe.empty()) scratch_.ofLobe[scratch_.order[chosen]] *= factor;
   Radiance arriving;
-  if (arrives(at, c, arriving))
-    value += arriving * c.coefficient * (scratch_.remaining[first] / rankedBrightness(chosen));
+  if (arrives(at, c, arriving)) value += arriving * c.coefficient;
 }
 
 void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& front,
@@ -342,11 +345,11 @@ void DirectLight::addSamples(Receiver at, LightId source, const SourceSampling& 
   scratch_.ofLobe.clear();
   t_.lights().sample(source, at.point, how, state_.random, scratch_.samples);
   for (const SourceSample& sample : scratch_.samples) {
-    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle);
+    const Coefficient coefficient = coefficientOf(sample.direction, sample.solidAngle) * factor;
     if (isBlack(coefficient)) continue;
     Contribution c{&sample, coefficient, sourceValue(at, sample)};
     Radiance arriving;
-    if (maxChannel(c.value) > 0 && arrives(at, c, arriving)) value += arriving * coefficient * factor;
+    if (maxChannel(c.value) > 0 && arrives(at, c, arriving)) value += arriving * c.coefficient;
   }
 }
 

@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from rsphere.annual.sky import daylight_of, patches
 from run_here import built, run_here
 
 WEA = "place X\nlatitude 50\nlongitude -10\ntime_zone -15\nsite_elevation 100\nweather_data_file_units 1\n"
@@ -89,7 +90,7 @@ class Annual(unittest.TestCase):
         self.assertEqual(self.light(epw('"P, Q"'), name="w.epw")[0], self.light(epw(), name="w.epw")[0])
 
     def test_a_part_of_a_year_is_said(self):
-        self.assertIn("has 24 hours, fewer than a year's 8760", self.light(WEA + "\n".join(DAY))[1])
+        self.assertIn("has 24 hours, fewer than a year's 8760; shares are of these hours", self.light(WEA + "\n".join(DAY))[1])
         self.refuse("w.wea:31: the hour is not after", WEA + "\n".join(400 * DAY))
 
     def test_coefficients_of_the_other_byte_order(self):
@@ -107,7 +108,7 @@ class Annual(unittest.TestCase):
         """The sun was down by day, and its light was left out without a word."""
         self.assertEqual(self.light(WEA + "\n".join(DAY))[1].count("\n"), 1)
         said = self.light(WEA.replace("time_zone -15", "time_zone 165") + "\n".join(DAY))[1]
-        self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light; are its latitude")
+        self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light, such as 6-1 at [0-9.]+ h; are its latitude")
 
     def test_kinds_of_coefficients(self):
         wea = WEA + "\n".join(DAY)
@@ -129,7 +130,7 @@ class Annual(unittest.TestCase):
             ("w.wea:8: is 0.25 h after the row before it; each row must be an hour", WEA + "6 1 12 1 1\n6 1 12.25 1 1\n", None),
             ("w.wea:7: an hour is month, day, hour, direct normal and diffuse irradiance, not 6 words", WEA + "2020 6 1 12.5 300 100\n", None),
             ("w.wea:7: the day must be from 1 to 29", WEA + "2 30 12.5 300 100\n", None), ("w.wea:7: the direct normal irradiance must be from 0 to 1500", WEA + "6 1 12.5 -999 0\n", None),
-            ("w.wea:1: the header lacks place", e.replace(",", ";"), None), ("w.wea:2: is an hour, but an .epw has 8 lines", "\n".join(e.split("\n")[:1] + e.split("\n")[8:]), None),
+            ("w.wea:1: the fields of an .epw are separated by commas", e.replace(",", ";"), None), ("w.wea:2: is an hour, but an .epw has 8 lines", "\n".join(e.split("\n")[:1] + e.split("\n")[8:]), None),
             ("w.wea:9: an hour has at least 16 fields", "\n".join(["LOCATION" + e.split("LOCATION")[1].split("\n")[0], "X", *e.split("\n")[1:]]), None),
             ("w.wea:1: the time zone must be from -15 to 15", e.replace(",1.0,100", ",60,100"), None), ("w.wea:20: the direct normal irradiance must be a number, not \"-\"", epw(irradiances="-,-"), None),
             ("w.wea:9: the hour must be from 1 to 24", e.replace("2000,6,1,1,60", "2000,6,1,0,60"), None), ("w.wea:1: LOCATION has 2 fields", e.replace("LOCATION,P", 'LOCATION,"P'), None),
@@ -146,13 +147,41 @@ class Annual(unittest.TestCase):
         for said, weather, of_sky in (
             ("the meridian of the time zone, 1 degrees, is at no quarter of an hour", good.replace("time_zone -15", "time_zone -1"), None),
             ("no hour has more than 5% of the irradiance outside", hours(0.3, 0.15), None), ("11 of 11 hours with a high sun have more irradiance", hours(1080, 540), None),
-            ("11 of 11 hours with a high sun have more irradiance", hours(50, 1400), None), ("co.f: 1 of 1 sensors have coefficients of 0 alone", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"0")),
+            ("11 of 11 hours with a high sun have more irradiance", hours(50, 1400), None),
+            ("co.f: 1 of 2 sensors have coefficients of 0 alone", good, coefficients(FORMAT="ascii", NROWS="2", values=876).replace(b"1e-2\n", b"0\n", 438)),
         ):  # fmt: skip
             with self.subTest(said):
                 self.assertIn(said, self.light(weather, of_sky)[1])
         for weather in (b"\xef\xbb\xbf" + good.encode(), good.replace(" ", "\t"), good.replace("\n", "\r\n"), good.replace("place X", "place New York")):
             self.assertEqual(self.light(weather), self.light(good))
         self.assertEqual(self.light(WEA + "2 29 12.5 300 100\n")[1].count("\n"), 1, "one hour")
+
+    def test_weather_that_is_surely_wrong(self):
+        """Of many hours it is refused, with the first line that is: it was computed with a warning, in one case to not a number."""
+        def of_days(direct=300, diffuse=150, header=WEA):
+            return header + "\n".join(f"6 {day} {h + 0.5} {direct * (6 < h < 18)} {diffuse * (6 < h < 18)}" for day in range(1, 11) for h in range(24)) + "\n"
+        self.assertGreater(self.light(of_days())[0], 0)
+        for said, weather in (
+            ("w.wea:15: 73% of the direct light is at hours without a sun or without diffuse light, such as 6-1 at 8.5 h", of_days(header=WEA.replace("longitude -10", "longitude 170"))),
+            ("w.wea:14: 110 of 110 hours with a high sun have more irradiance than there is outside", of_days(150, 1400)),
+            ("w.wea: no hour has more than 5% of the irradiance outside", of_days(0.3, 0.15)),
+            ("w.wea:1: the fields of an .epw are separated by commas alone", epw().replace(",", " , ")),
+            ("w.wea:32: has 17 fields, fewer than the rows before it: the file is cut off", epw()[:-3]),
+        ):  # fmt: skip
+            with self.subTest(said):
+                self.refuse(f"rsphere-annual: fatal - {said}", weather)
+        for dark in (coefficients(">"), coefficients(FORMAT="ascii").replace(b"1e-2", b"0")):
+            self.refuse("rsphere-annual: fatal - co.f: all sensors have coefficients of 0 alone, or nearly so; is BigEndian= right?", of_days(), dark)
+
+    def test_luminances_of_weather_that_cannot_be(self):
+        """Where Perez's model has no sky at all, the sky is even; it was not a number."""
+        rows = [[5, 6, 12.5, 0.556, 0.268], [5, 10, 12.5, 0.648, 0.263], [5, 6, 12.5, 556, 268]]
+        found = daylight_of(rows, [41.98, -87.92, -90.0], 3)
+        self.assertTrue(np.isfinite(found.luminance).all())
+        directions, solid_angles = patches(3)
+        np.testing.assert_allclose(found.luminance @ (solid_angles * np.maximum(0, directions[:, 2])), found.diffuse, rtol=1e-4)
+        self.assertEqual(np.ptp(found.luminance[0, 1:]), 0)
+        self.assertGreater(np.ptp(found.luminance[2, 1:]), 0)
 
     def test_any_word_replaced(self):
         """A line of fault with its place, or numbers; never a traceback, and never silence about what was not understood."""
@@ -179,7 +208,8 @@ class Annual(unittest.TestCase):
         for words, said in (([], "needs --weather FILE"), (["--weather", "w"], "needs scene files, or --coeff"),
                             (["--weather", "w", "r.rad", "-d", "x"], "argument -d/--divisions: invalid int"),
                             (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
-                            (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"),
+                            (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"), (["w.epw", "r.rad"], "w.epw: cannot be read: No such file"),
+                            (["w.epw"], "needs scene files, or --coefficients alone"), (["r.rad", "w.epw"], "needs --weather FILE"),
                             (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both")):
             with self.subTest(words):
                 run = run_here([built("rsphere-annual"), *words])

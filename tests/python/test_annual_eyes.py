@@ -7,7 +7,8 @@ import numpy as np
 
 import rsphere
 from rsphere.annual.alpha_opic import BANDS, MELANOPIC, OBSERVERS, SHARES, by_observers, melanopic_year, quantities_of_eyes, verdicts_of_eyes
-from rsphere.annual.light import Light, Settings
+from rsphere.annual.light import Light
+from rsphere.annual.passes import Settings
 from rsphere.annual.verdicts import Year
 from rsphere.annual.weather import Weather
 from run_here import InAFolder, built

@@ -8,7 +8,8 @@ import numpy as np
 
 import rsphere
 from rsphere.annual.glare import DIRECTIONS, PEAK, Glare, Sources, dgp, position_index, sun_through
-from rsphere.annual.light import Light, Settings
+from rsphere.annual.light import Light
+from rsphere.annual.passes import Settings
 from rsphere.annual.shades import group_of
 from rsphere.annual.sky import light_of, patches, relative_luminances
 from rsphere.annual.sun import sun_position

@@ -9,9 +9,10 @@ import xml.dom.minidom
 
 import numpy as np
 
-from rsphere.annual.light import Light, Settings, SunGrid, check_sky
+from rsphere.annual.light import LEFT_OUT, Light, SunGrid, check_sky
+from rsphere.annual.passes import LoweredPass, Pass, Settings
 from rsphere.annual.sensors import draw_points, scene_files
-from rsphere.annual.shades import ALLOWED, LOWERED, TRANSMITTANCE, UP, group_of, states_by_rule
+from rsphere.annual.shades import ALLOWED, ALONG, LOWERED, TRANSMITTANCE, UP, divided, group_of, states_by_rule
 from rsphere.annual.sun import MONTHS, sun_position
 from rsphere.annual.verdicts import Year, estimated, quantities_of, share, verdicts_of
 from rsphere.annual.weather import Weather
@@ -48,6 +49,26 @@ def clear_days(days=((3, 21), (6, 21), (12, 21)), direct=600, diffuse=120):
         for hour in np.arange(0.5, 24):
             up = sun_position(month, day, hour, *PLACE)[0] > 0.05
             yield month, day, hour, direct * up, diffuse * up
+
+
+def almanac_sun(year, month, day, hour, latitude, longitude, zone):
+    """Unit vector to the sun (east, north, up), by another algorithm than the package's: Meeus 1998, Astronomical Algorithms, chapters 7, 12,
+    22 and 25, to .01 degrees."""
+    y, m = (year, month) if month > 2 else (year - 1, month + 12)
+    days = np.floor(365.25 * (y + 4716)) + np.floor(30.6001 * (m + 1)) + day + 2 - y // 100 + y // 400 - 1524.5 + (hour - zone / 15) / 24 - 2451545
+    t = days / 36525
+    anomaly = np.radians(357.52911 + t * (35999.05029 - 0.0001537 * t))
+    center = (1.914602 - t * (0.004817 + 0.000014 * t)) * np.sin(anomaly) + (0.019993 - 0.000101 * t) * np.sin(2 * anomaly) + 0.000289 * np.sin(3 * anomaly)
+    node = np.radians(125.04 - 1934.136 * t)
+    longitude_of_sun = np.radians(280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * np.sin(node))
+    tilt = np.radians(23.439291 - 0.0130042 * t + 0.00256 * np.cos(node))
+    ascension = np.arctan2(np.cos(tilt) * np.sin(longitude_of_sun), np.cos(longitude_of_sun))
+    sine = np.sin(tilt) * np.sin(longitude_of_sun)  # of the declination
+    cosine = np.sqrt(1 - sine**2)
+    turn = np.radians(280.46061837 + 360.98564736629 * days + t * t * (0.000387933 - t / 38710000) + longitude) - ascension
+    north = np.radians(latitude)
+    return np.array([-cosine * np.sin(turn), np.cos(north) * sine - np.sin(north) * cosine * np.cos(turn),
+                     np.sin(north) * sine + np.cos(north) * cosine * np.cos(turn)])
 
 
 class Rules(unittest.TestCase):
@@ -172,6 +193,24 @@ class Rules(unittest.TestCase):
         self.assertFalse(verdict.hangs(), "no sensor more could reach it")
 
 
+class Sun(unittest.TestCase):
+    def test_almanac(self):
+        """Example 25.a of Meeus: on 13 October 1992 at 0 h (dynamical time, 59 s before), the declination is -7.78507 degrees."""
+        self.assertAlmostEqual(np.degrees(np.arcsin(almanac_sun(1992, 10, 13, 0, 90, 0, 0)[2])), -7.78507, delta=0.0005)
+
+    def test_positions_of_a_year(self):
+        """On either hemisphere the sun is within 1 degree of the almanac's, rms .4: gensky's formulas know no year and have this error."""
+        for place in (PLACE, [-33.9, 18.4, 30], [1.3, 103.8, 120], [65, -20, 0]):
+            for year in (2003, 2004):
+                rows = [(m, d, h) for m in range(1, 13) for d in range(1, MONTHS[m - 1] + 1) for h in (8.5, 12.5, 15.5)]
+                altitude, azimuth = np.array([sun_position(*row, *place) for row in rows]).T
+                found = np.stack([np.cos(altitude) * np.sin(azimuth), np.cos(altitude) * np.cos(azimuth), np.sin(altitude)])
+                wanted = np.stack([almanac_sun(year, *row, *place) for row in rows], axis=1)
+                apart = np.degrees(2 * np.arcsin(np.linalg.norm(found - wanted, axis=0) / 2))
+                self.assertLess(apart.max(), 1, (place, year))
+                self.assertLess(np.sqrt((apart**2).mean()), 0.4, (place, year))
+
+
 class Blinds(unittest.TestCase):
     """Two groups, 100 sensors."""
 
@@ -254,6 +293,32 @@ class Closed(InAFolder):
         self.assertGreater(lit, 30)
         np.testing.assert_allclose(light.year.open.sum(axis=2)[0] >= light.year.direct.sum(axis=1) * (1 - 1e-6), True)
 
+    def test_hours_of_sun_over_a_year(self):
+        """In a black box, direct sun of all hours of a year is where solar geometry has it, to the hour; by the almanac's sun, the hours of a
+        sensor are the same but for 2%."""
+        sensors = [[x, y, 0.5, 0, 0, 1] for x in (0.5, 2, 3.5) for y in (0.3, 0.9, 2, 3.7)]
+        days = [(month, day) for month in range(1, 13) for day in range(1, MONTHS[month - 1] + 1)]
+        rows = list(clear_days(days))
+        self.assertEqual(len(rows), 8760)
+        light = self.light(self.BOX, sensors, rows, estimates=0)
+        of_almanac = np.array([almanac_sun(2001, *row[:3], *PLACE) for row in light.year.rows]).T
+        count = 0
+        for sensor, direct in zip(sensors, light.year.direct):
+            passes = []
+            for x, y, z in (light.daylight.to_sun.T, of_almanac):
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    across, high = sensor[0] - sensor[1] * x / y, sensor[2] - sensor[1] * z / y
+                passes.append((y < 0) & (z > 0) & (across > 1) & (across < 3) & (high > 1) & (high < 2))
+                if len(passes) == 1:  # rays of sensors begin .11 mm above them
+                    at_edge = (np.abs(np.abs(across - 2) - 1) < 1e-3) | (np.abs(np.abs(high - 1.5) - 0.5) < 1e-3)
+            self.assertLess(at_edge.sum(), 0.005 * at_edge.size)
+            np.testing.assert_array_equal((direct > 0)[~at_edge], passes[0][~at_edge], f"{sensor}")
+            sure = passes[0] & ~at_edge
+            np.testing.assert_allclose(direct[sure], (light.daylight.sun * light.daylight.to_sun[:, 2])[sure], rtol=1e-5)
+            self.assertLess(abs(int(passes[0].sum()) - int(passes[1].sum())), 5 + 0.02 * passes[1].sum(), sensor)
+            count += passes[0].sum()
+        self.assertGreater(count, 3000)
+
     def test_aperture_of_known_solid_angle(self):
         """Below a square hole in a black plane the light of an even sky is its projected solid angle, and a blind lets 2% of it through."""
         a, h = 1.0, 1.0  # half the side; the distance
@@ -299,6 +364,48 @@ class Closed(InAFolder):
         np.testing.assert_allclose(parts.year.open.mean(axis=0).sum(axis=1), together.sum(axis=1), rtol=0.04)
         np.testing.assert_allclose(parts.year.direct, self.light(text, sensors, hours, estimates=1).year.direct, atol=1e-6)
 
+    ROOM = BOX.replace("plastic black 0 0 5 0 0 0 0 0", "plastic black 0 0 5 .6 .5 .4 0 0") + \
+        "void glass pane 0 0 3 .9 .9 .9\npane polygon glazing 0 0 12 1 0 1 1 0 2 3 0 2 3 0 1\n" + \
+        "void plastic grass 0 0 5 .1 .3 .05 0 0\ngrass polygon ground 0 0 12 -20 -20 -.1 20 -20 -.1 20 20 -.1 -20 20 -.1\n"
+
+    def test_blinds_by_their_parts(self):
+        """What passes through parts of blinds is what rays through all of them find, of sky and sun, at sensors and at eyes in color."""
+        room, sensors, eyes = self.scene(self.ROOM), np.array([[x, y, 0.8, 0, 0, 1.0] for x in (1, 3) for y in (0.7, 1.5, 3)]), np.array([[2, 3, 1.2, 0, -1, 0.0]])
+        group = group_of("pane=.1", read_polygons(room), sensors[:, :3])
+        self.assertEqual(len(group.parts), ALONG * ALONG // 2)
+        suns = np.array([[0.3, -0.8, 0.5], [-0.5, -0.4, 0.7]])
+        suns /= np.linalg.norm(suns, axis=1)[:, None]
+        common = (self.folder.name, "pass", sensors, eyes, np.zeros((0, 3)), suns, Settings(bounces=12, divisions=1024, sun_divisions=4096))
+        whole, parts = Pass(room, group.lowered, *common), LoweredPass(room, "", group, *common)
+        means = [[np.mean(kind, axis=0) for kind in zip(*(one.estimate(i) for i in range(4)))] for one in (whole, parts)]
+        (sky, sun), (sky_of_parts, sun_of_parts) = means
+        self.assertEqual(sky_of_parts.shape, sky.shape)
+        self.assertEqual(sun_of_parts.shape, sun.shape)
+        self.assertFalse(parts.direct.any())
+        for rows in (slice(len(sensors)), slice(len(sensors), None)):
+            np.testing.assert_allclose(sky_of_parts[rows, 1:].sum(), sky[rows, 1:].sum(), rtol=0.03)
+            np.testing.assert_allclose(sky_of_parts[rows, 0].sum(), sky[rows, 0].sum(), rtol=0.1)
+            np.testing.assert_allclose(sun_of_parts[rows].sum(axis=0), sun[rows].sum(axis=0), rtol=0.04)
+        np.testing.assert_allclose(sky_of_parts[: len(sensors)].sum(axis=1), sky[: len(sensors)].sum(axis=1), rtol=0.12, err_msg="each sensor")
+        np.testing.assert_allclose(parts.brightest_sun(256, 12)[: len(sensors)], sun_of_parts[: len(sensors)].max(axis=1), rtol=0.5)
+        alone = LoweredPass(room, "", group, *common[:3], np.zeros((0, 6)), *common[4:])
+        alone.keep(np.array([1, 4]))
+        np.testing.assert_array_equal(alone.estimate(0)[0], parts.estimate(0)[0][[1, 4]])
+
+    def test_blinds_that_are_not_divided(self):
+        """Panes of other shapes, and rooms with other openings, have rays through all of the blinds."""
+        sensors, hours = [[2, 1, 0.8, 0, 0, 1], [1, 2, 0.8, 0, 0, 1]], list(clear_days([(3, 21)]))
+        for pane, other, kind in (("12 1 0 1 1 0 2 3 0 2 3 0 1", "", LoweredPass), ("15 1 0 1 1 0 2 2 0 2 3 0 2 3 0 1", "", Pass),
+                                  ("12 1 0 1 1 0 2 3 0 2 3 0 1", "4 1.5 3", Pass)):
+            text = self.ROOM.replace("12 1 0 1 1 0 2 3 0 2 3 0 1", pane)
+            text = text.replace("12 0 0 3 0 4 3 4 4 3 4 0 3", f"12 0 0 3 0 4 3 4 4 3 {other or '4 0 3'}")
+            group = group_of("pane", read_polygons(self.scene(text)), np.array(sensors)[:, :3])
+            light = self.light(text, sensors, hours, [group], estimates=1)
+            self.assertIs(type(light.passes[0][LOWERED]), kind, pane)
+            self.assertIsNone(light.base)
+        many = [p for p in read_polygons(self.scene(self.ROOM)) if p.modifier == "pane"] * 200
+        self.assertEqual(len(divided(many, np.array(sensors)[:, :3])[0]), 200)
+
     def test_a_scene_with_a_roof_over_everything(self):
         text = BLACK + "black polygon p 0 0 9 0 0 0 1 0 0 0 1 0\nblack sphere s 0 0 4 0 0 0 50\n"
         with self.assertRaisesRegex(Fault, "the scene has a sky, or something above all"):
@@ -316,7 +423,7 @@ class Closed(InAFolder):
         with self.command("-e", "2", "--on", "floor", "--spacing", "1.4", stderr=subprocess.PIPE) as run:
             out, err = run.communicate()
         self.assertEqual(run.returncode, 0, err)
-        self.assertRegex(err, r"\A.*w\.wea: has 72 hours, fewer than a year's 8760\n\Z")
+        self.assertRegex(err, r"\A.*w\.wea: has 72 hours, fewer than a year's 8760; shares are of these hours\n\Z")
         self.assertRegex(out, r"9 sensors; 72 hours of w\.wea, 30 from 8 to 18 h\.\n2 independent estimates")
         self.assertRegex(out, r"IES LM-83-12;.*:\nsDA 300 lx / 50% of 8 to 18 h +55%: nominally accepted +[0-9.]+% +[0-9.]+ +(yes|no)")
         folder = os.path.join(self.folder.name, "annual")
@@ -326,6 +433,21 @@ class Closed(InAFolder):
         with open(os.path.join(folder, "table.txt"), encoding="utf-8") as stream:
             self.assertTrue(out.startswith(stream.read()))
         xml.dom.minidom.parse(os.path.join(folder, "useful.svg"))
+
+    def test_a_room_without_windows(self):
+        """It is dark, which a warning says; nothing is divided by its light."""
+        with self.command("-e", "2", "--spacing", "4", stderr=subprocess.DEVNULL) as run:
+            run.communicate()  # this has written w.wea and room.rad
+        room = self.file(BLACK + "".join(f"black polygon {name} 0 0 12 {corners}\n" for name, corners in (
+            ("floor", "0 0 0 4 0 0 4 4 0 0 4 0"), ("top", "0 0 3 0 4 3 4 4 3 4 0 3"), ("a", "0 0 0 0 0 3 4 0 3 4 0 0"), ("b", "4 0 0 4 0 3 4 4 3 4 4 0"),
+            ("c", "4 4 0 4 4 3 0 4 3 0 4 0"), ("d", "0 4 0 0 4 3 0 0 3 0 0 0"))).replace(" 0 0 0 0 0\n", " .5 .5 .5 0 0\n", 1), "dark.rad")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        run = run_here([built("rsphere-annual"), "w.wea", room, "-d", "16", "-e", "2", "--spacing", "1"])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("16 of 16 get no light in the whole year", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 2, run.stderr)
+        self.assertNotIn("nan", run.stdout)
 
     def test_accuracy_adds_estimates(self):
         """Until noise turns no verdict, or the light of the year at a sensor is known as well as asked for."""
@@ -398,7 +520,7 @@ class Closed(InAFolder):
                 self.assertEqual((run.returncode, run.stdout, run.stderr.count("fatal")), (1, "", 1), run.stderr)
                 self.assertIn(said, run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1 + run.stderr.count("warning"))
-        for words, said in (([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
+        for words, said in (([*shades("pane", "sill"), "pane.rad"], "--shades sill: lowered, they change the light at no sensor"), ([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
                             ([*shades("pane"), "double.rad"], "--shades pane: glazing and outer are panes of one window, and both get blinds")):
             with self.subTest(words):
                 run = run_here([*start, *words])
@@ -447,6 +569,20 @@ class Grid(unittest.TestCase):
         self.assertLess(np.median(apart), 0.3)
         coefficients = np.arange(len(grid.directions), dtype=float)[None]
         self.assertEqual(grid.between(coefficients).shape, (1, len(to_sun)))
+
+    def test_positions_that_are_left_out(self):
+        """Those with little light: others stand for them, and nearly all of the light is interpolated as before."""
+        rows = [row for row in clear_days([(m, 11) for m in range(1, 13)]) if row[3]]
+        angles = np.array([sun_position(*row[:3], *PLACE) for row in rows]).T
+        to_sun = np.stack([np.cos(angles[0]) * np.sin(angles[1]), np.cos(angles[0]) * np.cos(angles[1]), np.sin(angles[0])], axis=1)
+        light = np.where(to_sun[:, 2] > 0.3, 1, 1e-5)
+        every, some = SunGrid(to_sun, PLACE[0], 5, 1), SunGrid(to_sun, PLACE[0], 5, 1, light)
+        self.assertLess(len(some.directions), len(every.directions))
+        np.testing.assert_allclose(some.weights.sum(axis=1), 1)
+        apart = np.abs(some.between(some.directions.T) - every.between(every.directions.T)).max(axis=0)
+        self.assertTrue(apart.any())
+        self.assertLess((apart * light).sum(), 2 * LEFT_OUT * light.sum())
+        self.assertEqual(len(SunGrid(np.zeros((0, 3)), PLACE[0], 5, 1, np.zeros(0)).directions), 0)
 
 
 if __name__ == "__main__":

@@ -130,6 +130,19 @@ class Contributors(unittest.TestCase):
         self.assertEqual(parts.contributors, ["bulb"])
         np.testing.assert_allclose(parts.mean.sum(axis=1), whole.mean, rtol=1e-9)
 
+    def test_contributions_of_sources_drawn_at_random(self):
+        """With -Ss, a drawn source stands for those that are not: its contribution was that of one shadow ray alone."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "lamps.rad")
+            with open(path, "w", encoding="ascii") as stream:
+                stream.write("void light l 0 0 3 1 1 1\nl sphere a 0 0 4 0 0 2 .1\nvoid light m 0 0 3 1 1 1\nm sphere b 0 0 4 1 0 2 .1\n"
+                             "void plastic p 0 0 5 .5 .5 .5 0 0\np polygon f 0 0 12 -5 -5 0 5 -5 0 5 5 0 -5 5 0\n")
+            scene = rsphere.Scene(path)
+        rays = [[x, y, 1, 0, 0, -1] for x in np.linspace(-.5, .5, 64) for y in np.linspace(-.5, .5, 64)]
+        every, drawn = (scene.contributions(rays, ["l", "m"], samples=1, ambient_bounces=0, Ss=n).value.mean(axis=(0, 2, 3)) for n in (0, 1))
+        np.testing.assert_allclose(drawn, every, rtol=.02)
+        self.assertGreater(every.min(), 1e-4)
+
     def test_contributions(self):
         scene = rsphere.Scene(ROOM)
         rays = some_rays(12)

@@ -5,7 +5,8 @@
     light.add()  # one more estimate; light.year has all, in lx
     rsphere.annual.verdicts_of(light.year)
 """
-from .light import Light, Settings
+from .light import Light
+from .passes import Settings
 from .verdicts import Verdict, Year, quantities_of, verdicts_of
 from .weather import Weather, read_weather
 

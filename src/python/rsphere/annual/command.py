@@ -15,8 +15,9 @@ from ..progress import PROGRESS
 from . import outside
 from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
 from .glare import Glare
-from .light import ESTIMATES, Light, Settings, check_sky, light_of_coefficients, occupied_hours
+from .light import ESTIMATES, Light, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
+from .passes import Settings
 from .report import Report
 from .sensors import read_sensors, scene_files, sensors_on
 from .shades import check_shapes, groups_of
@@ -26,14 +27,16 @@ from .verdicts import FROM, UNTIL, verdicts_of
 from .weather import read_weather
 
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
-LATE = 0.05  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
+LATE, TOO_LATE = 0.05, 0.25  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
 MOST_ESTIMATES = 512
 SUN_SHARE = 8  # of --divisions for reflected sun, whose rays take longer: least noise for the time in two rooms (least at 9 and 16)
 QUARTER_HOUR = 3.75  # degrees of longitude
 HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
+OFTEN, MANY = 0.1, 100  # share and number of hours from which on weather is surely wrong
+TINY = 1e-6  # sum of a sensor's coefficients: nothing, or of the other byte order
 
 TEXT = """\
-Coefficients may also follow the weather alone: rsphere-annual town.epw sky.mtx.
+The weather may also come first, before a scene or coefficients alone: rsphere-annual town.epw room.rad.
 The scene has no sky; the weather (.epw or .wea) brings it. Verdicts are printed with their sources. They, what each sensor has,
 plans and a page for the browser (page.html) go into the folder of -o. rsphere-annual(1) describes the method."""
 
@@ -70,8 +73,10 @@ def arguments():
         value = getattr(given, name)
         if value is not None and not least <= value <= most:
             raise Fault(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
-    if not given.weather and len(given.scene) == 2 and given.scene[0].lower().endswith((".epw", ".wea")):
-        (given.weather, given.coefficients), given.scene = given.scene, []
+    if not given.weather and given.scene and given.scene[0].lower().endswith((".epw", ".wea")):
+        given.weather, *given.scene = given.scene
+        if len(given.scene) == 1 and not given.scene[0].lower().endswith((".rad", ".oct")):
+            given.coefficients, given.scene = given.scene[0], []
     if not given.weather:
         raise Fault("needs --weather FILE, the hours of a year: .epw or .wea")
     for name in ("sensors", "sunlight", "eyes", "coefficients"):
@@ -98,32 +103,44 @@ def warn(file, text):
     print(f"rsphere-annual: warning - {file}: {text}", file=sys.stderr)
 
 
+def doubt(file, line, text, sure, weather):
+    """Raises Fault if weather of many hours is surely wrong, and warns otherwise."""
+    if sure and len(weather.hours) >= MANY:
+        raise fault(file, line, text)
+    warn(file, text)
+
+
 def check_weather(file, weather, dark_sun):
-    """Warns of what a year lacks."""
+    """Warns of what a year lacks. Raises Fault if its sun is elsewhere."""
     n, missing = len(weather.hours), weather.missing
     if n + missing > HOURS_OF_LEAP_YEAR:
         raise fault(file, None, f"has {n + missing} rows, more than a year has hours: each must be an hour")
-    if missing:
-        warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
-    if n + missing < HOURS_OF_YEAR:
-        warn(file, f"has {n + missing} hours, fewer than a year's {HOURS_OF_YEAR}")
     direct = np.array([row[3] for row in weather.hours])
     late = direct[dark_sun].sum() / max(direct.sum(), 1e-9)
     if late > LATE:
-        warn(file, f"{late:.0%} of the direct light is at hours without a sun or without diffuse light; are its latitude, longitude and time zone right?")
+        at = np.flatnonzero(dark_sun & (direct > 0))[0]
+        first = weather.hours[at]
+        doubt(file, weather.lines[at], f"{late:.0%} of the direct light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
+              f"{first[2]:g} h; are its latitude, longitude and time zone right?", late > TOO_LATE, weather)
+    if missing:
+        warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
+    if n + missing < HOURS_OF_YEAR:
+        warn(file, f"has {n + missing} hours, fewer than a year's {HOURS_OF_YEAR}; shares are of these hours")
 
 
 def check_units(file, weather):
-    """Warns of irradiances that are too small or too large for W/m2, and of a time zone in hours."""
+    """Warns of irradiances that are too small or too large for W/m2, and of a time zone in hours. Raises Fault if they surely are."""
     if abs(weather.place[2] / QUARTER_HOUR - round(weather.place[2] / QUARTER_HOUR)) > 1e-6:
         warn(file, f"the meridian of the time zone, {weather.place[2]:g} degrees, is at no quarter of an hour (3.75 degrees); is it in hours?")
-    rows = [(row, sun_position(*row[:3], *weather.place)[0]) for row in weather.hours if row[3] + row[4] > 0]
-    above = [(row[3] * math.sin(a) + row[4]) / (SOLAR_CONSTANT * math.sin(a)) for row, a in rows if a > HIGH]
+    rows = [(row, sun_position(*row[:3], *weather.place)[0], line) for row, line in zip(weather.hours, weather.lines) if row[3] + row[4] > 0]
+    above = [(row[3] * math.sin(a) + row[4]) / (SOLAR_CONSTANT * math.sin(a)) for row, a, _ in rows if a > HIGH]
+    lines = [line for *_, a, line in rows if a > HIGH]
     beyond = np.array([share > 1 for share in above])
     if len(above) >= FEW and beyond.mean() > SELDOM:
-        warn(file, f"{beyond.sum()} of {len(above)} hours with a high sun have more irradiance than there is outside of the atmosphere; is it in W/m2?")
+        doubt(file, lines[np.argmax(beyond)], f"{beyond.sum()} of {len(above)} hours with a high sun have more irradiance than there is outside of the "
+              "atmosphere; is it in W/m2, first direct normal, then diffuse?", beyond.mean() > OFTEN, weather)
     if len(above) >= FEW and max(above) < DARK:
-        warn(file, f"no hour has more than {DARK:.0%} of the irradiance outside of the atmosphere; is it in W/m2?")
+        doubt(file, None, f"no hour has more than {DARK:.0%} of the irradiance outside of the atmosphere; is it in W/m2?", True, weather)
 
 
 def estimates(light, given):
@@ -228,9 +245,11 @@ def main():
     notes, polygons = [], []
     if given.coefficients:
         coefficients, factor = read_coefficients(given.coefficients)
+        dark = int((coefficients.sum(axis=1) < TINY).sum())
+        if dark == len(coefficients):
+            raise fault(given.coefficients, None, "all sensors have coefficients of 0 alone, or nearly so; is BigEndian= right?")
         year, dark_sun = light_of_coefficients(coefficients, factor, weather)
         check_weather(given.weather, weather, dark_sun)
-        dark = int((coefficients.sum(axis=1) == 0).sum())
         if dark:
             warn(given.coefficients, f"{dark} of {len(coefficients)} sensors have coefficients of 0 alone")
         notes.append("The sun is spread over patches of the sky: there is no ASE, no shade is lowered, and errors are not known.")

@@ -12,7 +12,8 @@ import numpy as np
 import rsphere
 
 from ..progress import PROGRESS
-from .light import SUN_SOLID_ANGLE, VISIBLE, Light
+from .light import Light
+from .passes import SUN_SOLID_ANGLE, VISIBLE, LoweredPass
 from .shades import LOWERED, UP
 from .verdicts import FROM, SURE, UNTIL, Verdict, estimated
 
@@ -97,6 +98,8 @@ def weights_of_hours(name, files, eye, weather, groups, folder, settings, states
     light = Light(files, rays, np.full(len(rays), 1 / len(rays)), weather, groups, folder, settings)
     brightest = light.daylight.luminance.max(axis=0, initial=0)  # of each patch
     bound = sum(np.max([p.sky(0, FEW, SHORT) @ brightest for p in group], axis=0) for group in light.passes) + light.direct.max(axis=(1, 3)).sum(axis=0)
+    sun = light.daylight.sun.max(initial=0) / SUN_SOLID_ANGLE
+    bound += sum(p.brightest_sun(FEW, SHORT) * sun for group in light.passes for p in group if isinstance(p, LoweredPass))
     chosen = np.flatnonzero(bound > THRESHOLD / 2)  # that may be bright in some hour
     light.keep(chosen)
     sources.keep(chosen)

@@ -4,7 +4,7 @@ import math
 import numpy as np
 
 from ..fault import fault
-from .light import VISIBLE
+from .passes import VISIBLE
 
 FORMATS = {b"ascii": None, b"float": "f4", b"double": "f8"}
 LARGEST_SUM = 1.1 * math.pi  # the sum of a sensor without noise is at most pi

@@ -17,7 +17,9 @@ PANE = 0.1  # reflectance of windows that are closed, about that of panes: while
 ALLOWED = 0.02  # of the sensors may have SUNNY lx of direct sun (LM-83)
 MOST_COMBINED = 6  # groups of which all combinations are tried
 GAP, OVERLAP = 1e-4, 1e-3  # of a blind from its pane, and beyond its edges, by the pane's size: what passes beside it is negligible
+SET_OFF, LEAST = 1e-3, 2e-4  # instead of GAP, and in units of the scene, where sensors are on blinds: their rays miss nearer panes
 BEHIND = 0.25  # by their size: how far windows may be apart that are panes of one opening
+MOST_PARTS, ALONG = 400, 6  # of blinds, and of one along its longer edge: the light of each is taken as even
 UP, LOWERED = 0, 1
 
 
@@ -30,19 +32,81 @@ class Group:
     lowered: str  # scene text of the blinds
     files: list  # or their files
     closed: str  # scene text that closes the windows
+    transmittance: float = 0.0  # of blinds that are not of files
+    further: str = ""  # scene text of these blinds, opaque and SET_OFF from their panes
+    parts: np.ndarray = None  # corners of the blinds' parts (n, 4, 3), if all panes are convex and have four
+    outwards: np.ndarray = None  # (n, 3): to their sides away from the sensors, as long as the blinds are away from their panes
+    set_off: np.ndarray = None  # (n, 1), by this length
+
+    def part_names(self):
+        return [f"rsphere_part{i}" for i in range(len(self.parts))]
+
+    def part_text(self):
+        """Scene text of the sides of the parts towards the sensors, each of its own modifier."""
+        return "".join(f"{opaque(REFLECTANCE, name)}\n{name} polygon {name}\n0\n0\n"
+                       f"12 {' '.join(f'{v:.12g}' for v in corners.ravel())}\n" for name, corners in zip(self.part_names(), self.parts))
+
+    def rays_outwards(self, u, v):
+        """Places of sensors at the outer sides of the parts of further, and their directions. u, v: where on each (n, 1), from 0 to 1."""
+        a, b, c, d = self.parts.swapaxes(0, 1)
+        places = (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c) + self.outwards * (1 - self.set_off)
+        return np.hstack([places, self.outwards / np.linalg.norm(self.outwards, axis=1)[:, None]])
+
+    def radiance_of(self, irradiance):
+        """Of the parts, towards the sensors, for irradiances on their outer sides."""
+        return irradiance * (self.transmittance / np.pi)
 
 
-def covers(polygons, sensors, material, name):
+def opaque(reflectance, name):
+    return f"void plastic {name} 0 0 5 {reflectance} {reflectance} {reflectance} 0 0"
+
+
+def size_of(p):
+    return np.sqrt(np.linalg.norm(p.vector()))
+
+
+def set_off(p):
+    """How far, by its size, blinds are from a pane where sensors are on them."""
+    return max(SET_OFF, LEAST / size_of(p))
+
+
+def cover(p, sensors, gap=GAP):
+    """The corners of what covers a polygon on its side of the sensors, and the way from the polygon to it."""
+    normal = p.vector() / np.linalg.norm(p.vector())
+    side = np.sign((sensors - p.corners[0]) @ normal).sum() or 1
+    middle = p.corners.mean(axis=0)
+    way = np.sign(side) * normal * gap * size_of(p)
+    return middle + (p.corners - middle) * (1 + OVERLAP) + way, way
+
+
+def covers(polygons, sensors, material, name, gap=lambda _: GAP):
     """Scene text of a material on polygons, on their side of the sensors."""
     text = f"{material}\n"
     for i, p in enumerate(polygons):
-        normal = p.vector() / np.linalg.norm(p.vector())
-        side = np.sign((sensors - p.corners[0]) @ normal).sum() or 1
-        middle = p.corners.mean(axis=0)
-        size = np.sqrt(np.linalg.norm(p.vector()))
-        corners = middle + (p.corners - middle) * (1 + OVERLAP) + np.sign(side) * normal * GAP * size
+        corners = cover(p, sensors, gap(p))[0]
         text += f"{name} polygon {name}.{i + 1}\n0\n0\n{corners.size} {' '.join(f'{v:.12g}' for v in corners.ravel())}\n"
     return text
+
+
+def divided(polygons, sensors):
+    """The parts of covers(), as in Group, the ways outwards and set_off; None if a polygon is not convex with four corners."""
+    along = max(1, min(ALONG, int(np.sqrt(MOST_PARTS / len(polygons)))))
+    parts, outwards, off = [], [], []
+    for p in polygons:
+        corners, way = cover(p, sensors)
+        edges = np.roll(corners, -1, axis=0) - corners
+        if len(corners) != 4 or (np.cross(edges, np.roll(edges, -1, axis=0)) @ p.vector() <= 0).any():
+            return None, None, None
+        long = np.linalg.norm(edges, axis=1)
+        a, b, c, d = corners
+        at = lambda u, v: (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c)  # noqa: B023, E731
+        u, v = (np.linspace(0, 1, 1 + max(1, round(along * max(long[k], long[k + 2]) / long.max()))) for k in (0, 1))
+        for i in range(len(u) - 1):
+            for j in range(len(v) - 1):
+                parts.append([at(u[i], v[j]), at(u[i + 1], v[j]), at(u[i + 1], v[j + 1]), at(u[i], v[j + 1])])
+                outwards.append(-way)
+                off.append([set_off(p) / GAP])
+    return np.array(parts), np.array(outwards), np.array(off)
 
 
 def group_of(word, polygons, sensors):
@@ -52,7 +116,7 @@ def group_of(word, polygons, sensors):
     if not windows:
         known = ", ".join(sorted({p.modifier for p in polygons})[:8])
         raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
-    lowered, files = "", []
+    lowered, files, t, parts = "", [], 0.0, ("", None, None, None)
     if state and not (NUMBER.fullmatch(state) or (state[0] in "+-.0123456789" and not os.path.exists(state))):
         files = [state]
         if not any(line.strip() and not line.lstrip().startswith("#") for line in lines_of(state)):
@@ -60,9 +124,10 @@ def group_of(word, polygons, sensors):
     else:
         t = number(state, "--shades " + word, None, "what is behind =", 0, 0.5) if state else TRANSMITTANCE
         color = REFLECTANCE + t
+        parts = covers(windows, sensors, opaque(REFLECTANCE, "rsphere_blind"), "rsphere_blind", set_off), *divided(windows, sensors)
         lowered = covers(windows, sensors, f"void trans rsphere_blind 0 0 7 {color} {color} {color} 0 0 {t / color:.9g} 0", "rsphere_blind")
-    closed = covers(windows, sensors, f"void plastic rsphere_closed 0 0 5 {PANE} {PANE} {PANE} 0 0", "rsphere_closed")
-    return Group(name, windows, lowered, files, closed)
+    closed = covers(windows, sensors, opaque(PANE, "rsphere_closed"), "rsphere_closed")
+    return Group(name, windows, lowered, files, closed, t, *parts)
 
 
 def behind_others(windows):

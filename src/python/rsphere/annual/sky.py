@@ -107,6 +107,8 @@ def daylight_of(rows, place, factor):
         to_sun = np.arccos(np.clip(directions @ sun, -1, 1))
         luminance = np.maximum(0, relative_luminances(parameters, to_sun, directions[:, 2]))
         luminance[0] = 0
+        if not luminance @ projected > 0:  # of weather that cannot be; an even sky, of which other hours may warn
+            luminance[1:] = 1
         luminance *= by_sky / (luminance @ projected)
         luminance[0] = GROUND * (by_sky + by_sun * math.sin(altitude)) / math.pi
         found.luminance[i], found.sun[i], found.to_sun[i], found.diffuse[i] = luminance, by_sun, sun, by_sky
