@@ -173,9 +173,10 @@ struct CoarseSolution {
   // tenth more time at -aa .1. Places must be random: with the four places of Gauss-Legendre quadrature in
   // all patches, sensors by sun are 1.2% too dark (tests/bench/rtrace/runs/2026-11-28-patches.txt).
   static constexpr double kManyRays = 256;
-  // By daylight, the light of patches with fewer rays has no slopes, because they would be noise; by lamps,
-  // links use none where there are several solutions (tests/bench/rtrace/runs/2026-11-29-coves.txt). Measured:
+  // By daylight, the light of patches with fewer rays has no slopes, because they would be noise. Measured:
   // if all patches have at most 31 rays, slopes double the noise of spherical means in a room with a window.
+  // By lamps, only links do without slopes, if there are several solutions
+  // (tests/bench/rtrace/runs/2026-11-29-coves.txt).
   static constexpr double kFewestForSlopes = 32;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
