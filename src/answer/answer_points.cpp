@@ -39,7 +39,7 @@ class PictureMaker {
 void PictureMaker::write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const {
   const bool isRadiance = file.format() == PictureFormat::radiance;
   const Projection whole = isRadiance ? Projection::angularFisheye : Projection::latitudeLongitude;
-  const PixelMap map(options_.pictureForm.opening > 0 ? Projection::perspective : whole,
+  const PixelMap map(options_.pictureForm.viewAngle > 0 ? Projection::perspective : whole,
                      options_.pictureForm);
   const uint64_t seed = seedOf(std::initializer_list<double>{point.x, point.y, point.z},
                                kPictureSeed ^ rotationBits(options_.ray));

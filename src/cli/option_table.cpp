@@ -495,7 +495,7 @@ constexpr OptionEntry kOptions[] = {
       +[](O& o) -> int& { return o.pictureForm.width; }, Range{0, 16384}, "pixels"},
      pointsOnly()},
     {{"-Siv", "vh", "horizontal angle of pictures in perspective; 0: all directions", Group::sphere,
-      +[](O& o) -> double& { return o.pictureForm.opening; }, Range{0, 170}, "degrees"},
+      +[](O& o) -> double& { return o.pictureForm.viewAngle; }, Range{0, 170}, "degrees"},
      pointsOnly()},
     {{"-Sih", "az", "azimuth in the middle of pictures", Group::sphere,
       +[](O& o) -> double& { return o.pictureForm.heading; }, Range{-360, 360}, "degrees"},

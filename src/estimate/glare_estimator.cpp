@@ -19,8 +19,8 @@ namespace {
 constexpr double kSameSource = .1;  // rad
 constexpr double kPeak = 50000;     // cd/m2
 
-// No direction reaches a fixed threshold from here on (the sun has 1.6e9 cd/m2), except to a light source of
-// its own: the indirect light of a direction need not be separated, which takes most of the time.
+// With a fixed threshold from here on, only light sources can be glare sources (the sun has 1.6e9 cd/m2). The
+// indirect light of other directions then need not be separated, which takes most of the time.
 constexpr double kAboveAll = 1e10;  // cd/m2
 
 // Offsets of seeds: rays that are traced again, and rays to the task, are independent of rays that are traced

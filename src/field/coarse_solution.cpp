@@ -181,18 +181,17 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
       first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
   const double fewer = first || options.solutions > 1 ? 1 : tuning::CoarseSolution::kFewerByLamps;
   if (!daylit)
-    return {
-        tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
-        tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
-        tuning::CoarseSolution::kCoarserByLamps * far, near, fewer * tuning::CoarseSolution::kRays * rays,
-        first ? 1. : 0., 1,
-        first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
-                    tuning::CoarseSolution::kLeastRays
-              : fewer * tuning::CoarseSolution::kLeastRays,
-        rays, share, 0,
-        // Several solutions have few rays each. Where links use noisy slopes, light can grow from bounce to
-        // bounce. Gathers use them: without slopes, sensors below a cove are 6 to 8% too bright.
-        options.solutions > 1 ? tuning::CoarseSolution::kFewestForSlopes : 0};
+    return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
+            tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
+            tuning::CoarseSolution::kCoarserByLamps * far, near, fewer * tuning::CoarseSolution::kRays * rays,
+            first ? 1. : 0., 1,
+            first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
+                        tuning::CoarseSolution::kLeastRays
+                  : fewer * tuning::CoarseSolution::kLeastRays,
+            rays, share, 0,
+            // Several solutions have few rays each. By noisy slopes of links, light can grow from bounce to
+            // bounce. Gathers need slopes: without them, sensors below a cove are 6 to 8% too bright.
+            options.solutions > 1 ? tuning::CoarseSolution::kFewestForSlopes : 0};
   return {tuning::CoarseSolution::kSpacing * finer,
           tuning::CoarseSolution::kLeastPatch,
           far,

@@ -88,7 +88,7 @@ class CoarseSolution {
     double asked;        // number of rays of a gather that uses patches
     double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
     double forSlopes;    // least number of rays of a patch whose light has slopes
-    double forLinks;     // the same where a link uses the light
+    double forLinks;     // the same for light that links use; below it, they use the mean
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

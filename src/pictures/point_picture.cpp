@@ -30,7 +30,7 @@ PixelMap::PixelMap(Projection projection, const PictureForm& form)
   const bool perspective = projection == Projection::perspective;
   width_ = form.width > 0 ? form.width : fisheye ? tuning::Pictures::kFisheyeSide : 1024;
   height_ = fisheye ? width_ : std::max(1, perspective ? width_ * 3 / 4 : width_ / 2);
-  if (perspective) right_ = std::tan(form.opening * (pi / 360));
+  if (perspective) right_ = std::tan(form.viewAngle * (pi / 360));
   up_ = right_ * height_ / width_;
 }
 
@@ -89,10 +89,10 @@ double PixelMap::solidAngle(size_t pixel) const {
 std::string PixelMap::viewLine(const V3d& p) const {
   const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9 + 0.; };  // + 0.: not -0
   const bool perspective = projection_ == Projection::perspective;
-  const auto opening = [&](double reach) { return perspective ? rounded(std::atan(reach) * 360 / pi) : 360; };
+  const auto angle = [&](double reach) { return perspective ? rounded(std::atan(reach) * 360 / pi) : 360; };
   return fmt::format("VIEW= -vt{} -vp {} {} {} -vd {} {} 0 -vu 0 0 1 -vh {} -vv {} -vo 0 -va 0 -vs 0 -vl 0\n",
-                     perspective ? 'v' : 'a', p.x, p.y, p.z, rounded(-sine_), rounded(cosine_),
-                     opening(right_), opening(up_));
+                     perspective ? 'v' : 'a', p.x, p.y, p.z, rounded(-sine_), rounded(cosine_), angle(right_),
+                     angle(up_));
 }
 
 ToneCurve::ToneCurve(const Raster& raster, const PixelMap& map, double white)

@@ -26,10 +26,10 @@ enum class Projection {
 
 // The form of pictures, as options give it.
 struct PictureForm {
-  int width = 0;        // -Siw  pixels; 0: see PixelMap
-  double opening = 0;   // -Siv  horizontal angle of a perspective view (degrees); 0: the whole sphere
-  double heading = 90;  // -Sih  azimuth of the middle (degrees, counterclockwise from +x)
-  double white = 0;     // -Sie  luminance that is shown as white (cd/m2); 0: see ToneCurve
+  int width = 0;         // -Siw  pixels; 0: see PixelMap
+  double viewAngle = 0;  // -Siv  horizontal angle of a perspective view (degrees); 0: the whole sphere
+  double heading = 90;   // -Sih  azimuth of the middle (degrees, counterclockwise from +x)
+  double white = 0;      // -Sie  luminance that is shown as white (cd/m2); 0: see ToneCurve
 };
 
 class PixelMap {

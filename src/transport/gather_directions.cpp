@@ -13,10 +13,11 @@ namespace rsphere {
 namespace {
 
 // The fraction of rays that are aimed at places of a kind is `aimed` times the fraction of the light from
-// them, and at most `most`. The limit bounds the weight of unaimed directions to twice their weight without
-// aiming (with highlights, a third more than twice), and thus the growth of their variance. It matters most
-// for patches, whose few rays are links: with 1 for spots, rays into thin gaps below a lamp had 15% of noise
-// with -Sa .02, which grew from bounce to bounce (tests/bench/rtrace/runs/2026-11-29-gaps.txt).
+// them, and at most `most`. Where one kind gets most of the light, the limit bounds the weight of unaimed
+// directions to twice their weight without aiming (with highlights, a third more than twice), and thus the
+// growth of their variance. It matters most for patches, whose few rays are links: with 1 for spots, rays
+// into thin gaps below a lamp had 15% of noise with -Sa .02, which grew from bounce to bounce
+// (tests/bench/rtrace/runs/2026-11-29-gaps.txt).
 struct Share {
   double aimed, most;
 };

@@ -61,7 +61,7 @@ TEST(PixelMap, TheHeadingIsInTheMiddle) {
 
 // What vwrays(1) gives for -vtv -vh 90 -vv 73.739795, towards +x.
 TEST(PixelMap, PerspectiveIsRadiancesView) {
-  const PixelMap map(Projection::perspective, {.width = 80, .opening = 90, .heading = 0});
+  const PixelMap map(Projection::perspective, {.width = 80, .viewAngle = 90, .heading = 0});
   ASSERT_EQ(map.width(), 80);
   ASSERT_EQ(map.height(), 60);
   EXPECT_LT((*map.direction(40, 30) - V3d(1, 0, 0)).length(), 1e-12);
@@ -117,7 +117,7 @@ struct Drawn : SphereSetting {
       : SphereSetting(sceneOf(text), [&](RayOptions& o) { o.ambientBounces = bounces; }),
         pictures(*transport, picturesWith(bounces)),
         sources(pictures.prepared()),
-        map(projection, {.width = width, .opening = 80}) {
+        map(projection, {.width = width, .viewAngle = 80}) {
     SphereOptions o = options.sphere;
     o.baseDirections = 4096;
     o.mostDirections = 8192;

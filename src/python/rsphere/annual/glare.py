@@ -13,7 +13,7 @@ import rsphere
 
 from ..progress import PROGRESS
 from .light import Light
-from .passes import SUN_SOLID_ANGLE, VISIBLE, LoweredPass
+from .passes import SUN_SOLID_ANGLE, VISIBLE
 from .shades import LOWERED, UP
 from .verdicts import FROM, SURE, UNTIL, Verdict, estimated
 
@@ -99,7 +99,7 @@ def weights_of_hours(name, files, eye, weather, groups, folder, settings, states
     brightest = light.daylight.luminance.max(axis=0, initial=0)  # of each patch
     bound = sum(np.max([p.sky(0, FEW, SHORT) @ brightest for p in group], axis=0) for group in light.passes) + light.direct.max(axis=(1, 3)).sum(axis=0)
     sun = light.daylight.sun.max(initial=0) / SUN_SOLID_ANGLE
-    bound += sum(p.brightest_sun(FEW, SHORT) * sun for group in light.passes for p in group if isinstance(p, LoweredPass))
+    bound += sum(p.brightest_sun(FEW, SHORT) * sun for group in light.passes for p in group)
     chosen = np.flatnonzero(bound > THRESHOLD / 2)  # that may be bright in some hour
     light.keep(chosen)
     sources.keep(chosen)

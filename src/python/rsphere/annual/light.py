@@ -159,7 +159,7 @@ class Light:
 
     def direct_of(self, one):
         """lx of direct sun through the windows of a pass that are not closed in all."""
-        return self.in_hours(one.direct) - (self.base_direct if isinstance(one, Pass) else 0)
+        return self.in_hours(one.direct) - (self.base_direct if one.has_base else 0)
 
     def lux_of(self, one, number):
         """One estimate of all light of a pass, but the direct sun: (sensors, hours)."""
@@ -178,7 +178,7 @@ class Light:
         """One more estimate, in Year's stacks."""
         number = int(self.counts.sum())
         base = self.lux_of(self.base, number) if self.base else 0
-        parts = np.array([[self.lux_of(p, number) - (base if isinstance(p, Pass) else 0) for p in states] for states in self.passes]) + self.direct
+        parts = np.array([[self.lux_of(p, number) - (base if p.has_base else 0) for p in states] for states in self.passes]) + self.direct
         base = base + self.base_direct
         if number == 0:
             # By the light of the sky alone: reflected sun has more rays where blinds are lowered.

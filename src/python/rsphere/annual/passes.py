@@ -79,6 +79,8 @@ def names_of(suns):
 class Pass:
     """Light in a scene with some of its windows closed. Rows are the sensors, and the eyes by each observer."""
 
+    has_base = True  # whether light of windows that are never closed is in it
+
     def __init__(self, files, text, folder, name, sensors, eyes, to_sun, reflected_from, settings):
         """to_sun: all directions of direct light; reflected_from: those of reflected light."""
         self.sensors, self.eyes, self.reflected_from, self.settings = sensors, eyes, reflected_from, settings
@@ -118,6 +120,10 @@ class Pass:
         """One estimate of the light of all patches."""
         return self.contributions(self.by_sky, **self.scenes.sky_options(number, divisions, bounces))
 
+    def brightest_sun(self, divisions, bounces):
+        """As of LoweredPass, beside `direct`: what a sun sends by reflections is never bright."""
+        return 0
+
     def estimate(self, number):
         """One estimate of the light of all patches, and of the reflected light of the sun. number: of the estimate."""
         sky = self.sky(number)
@@ -137,6 +143,8 @@ class LoweredPass:
     These blinds are diffuse, so that what arrives on their outer side is all that matters of sky and sun: rays of the sensors find the
     parts of the blinds, and rays of these parts the sky and the sun. Shadow rays inside of the room would end at the blinds.
     """
+
+    has_base = False
 
     def __init__(self, files, text, group, folder, name, sensors, eyes, to_sun, reflected_from, settings):
         """As of Pass. group: with parts."""

@@ -48,13 +48,18 @@ class Group:
 
     def rays_outwards(self, u, v):
         """Places of sensors at the outer sides of the parts of further, and their directions. u, v: where on each (n, 1), from 0 to 1."""
-        a, b, c, d = self.parts.swapaxes(0, 1)
-        places = (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c) + self.outwards * (1 - self.set_off)
+        places = between(self.parts.swapaxes(0, 1), u, v) + self.outwards * (1 - self.set_off)
         return np.hstack([places, self.outwards / np.linalg.norm(self.outwards, axis=1)[:, None]])
 
     def radiance_of(self, irradiance):
         """Of the parts, towards the sensors, for irradiances on their outer sides."""
         return irradiance * (self.transmittance / np.pi)
+
+
+def between(corners, u, v):
+    """A place between four corners; u, v: from 0 to 1."""
+    a, b, c, d = corners
+    return (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c)
 
 
 def opaque(reflectance, name):
@@ -98,12 +103,10 @@ def divided(polygons, sensors):
         if len(corners) != 4 or (np.cross(edges, np.roll(edges, -1, axis=0)) @ p.vector() <= 0).any():
             return None, None, None
         long = np.linalg.norm(edges, axis=1)
-        a, b, c, d = corners
-        at = lambda u, v: (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c)  # noqa: B023, E731
         u, v = (np.linspace(0, 1, 1 + max(1, round(along * max(long[k], long[k + 2]) / long.max()))) for k in (0, 1))
         for i in range(len(u) - 1):
             for j in range(len(v) - 1):
-                parts.append([at(u[i], v[j]), at(u[i + 1], v[j]), at(u[i + 1], v[j + 1]), at(u[i], v[j + 1])])
+                parts.append([between(corners, u[k], v[m]) for k, m in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))])
                 outwards.append(-way)
                 off.append([set_off(p) / GAP])
     return np.array(parts), np.array(outwards), np.array(off)

@@ -355,15 +355,15 @@ class Solver:
 def search(design, candidates, watts, scenes, seconds=30.0, gap=0.005, dimmed=0.0):
     """The Layout of least watts. watts: of each candidate. scenes: the rows of each scene. dimmed: what watts of levels cost beside those; 0: they decide among
     layouts of equal watts."""
-    solver = Solver(design, candidates, watts, scenes, False, dimmed or 1e-9)
-    decide = design.dims() and not dimmed
+    decide, cost = design.dims() and not dimmed, dimmed or 1e-9
+    solver = Solver(design, candidates, watts, scenes, False, cost)
     found = solver.solve((1 - DIMMED_SHARE * decide) * seconds, gap)
     if found.x is not None and decide:
         found, found.mip_dual_bound = solver.less_dimmed(found, DIMMED_SHARE * seconds), found.mip_dual_bound
     misses, bound = [], getattr(found, "mip_dual_bound", None) or 0.0
     proven = found.status == 2  # not just out of time
     if found.x is None:
-        solver = Solver(design, candidates, watts, scenes, True, dimmed or 1e-9)
+        solver = Solver(design, candidates, watts, scenes, True, cost)
         found = solver.solve(seconds / 2, gap)
         if found.x is not None and found.status != 0:  # out of time: watts have hardly counted
             found = solver.with_fewer_watts(found, seconds / 2)
