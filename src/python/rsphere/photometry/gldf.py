@@ -11,6 +11,7 @@ from .ies import read_ies
 from .tm33 import read_tm33
 from .xml_file import MOST_BYTES, number_of, root_of, text_of
 
+PRODUCT = "product.xml"
 MOST_MEMBERS = 10000
 READERS = {"ldc/eulumdat": read_eulumdat, "ldc/ies": read_ies, "ldc/iesxml": read_tm33}  # never another archive: it may hold itself
 DIFFERENT = 0.01  # of the flux: photometric file and product differ by more
@@ -30,6 +31,9 @@ class Archive:
         if len(self.zip.infolist()) > MOST_MEMBERS:
             raise fault(file, None, f"has more than {MOST_MEMBERS} files")
         self.names = {name.lower(): name for name in self.zip.namelist()}
+
+    def has(self, name):
+        return name.lower() in self.names
 
     def read(self, name):
         """The bytes of a member. What it says of its size is not believed."""
@@ -52,60 +56,69 @@ class Product:
     """product.xml: its elements by their id."""
 
     def __init__(self, root, file):
-        self.root, self.file = root, file
+        self.root, self.file = root, f"{file}: {PRODUCT}"
 
     def all(self, tag):
         return self.root.iter(tag)
 
-    def named(self, tag, name, where):
+    def named(self, tag, name, whose):
+        """The element of a tag and an id. whose: the element that refers to it, or None."""
         for element in self.all(tag):
             if element.get("id") == name:
                 return element
         known = ", ".join(sorted(str(e.get("id")) for e in self.all(tag))[:12]) or "none"
-        raise fault(self.file, None, f'product.xml has no {tag} "{str(name)[:40]}"{where}; it has {known}')
+        wanted = f", which this {whose.tag} refers to" if whose is not None else ""
+        raise fault(self.file, None if whose is None else whose.line, f'there is no {tag} "{str(name)[:40]}"{wanted}; there is {known}')
 
     def variant(self, name):
         variants = list(self.all("Variant"))
         if name is None and not variants:
-            raise fault(self.file, None, "product.xml has no Variant: is it of a luminaire?")
-        return variants[0] if name is None else self.named("Variant", name, "")
+            raise self.root.fault(self.file, "there is no Variant: is the product a luminaire?")
+        return variants[0] if name is None else self.named("Variant", name, None)
 
     def emitter(self, variant, name):
         """The emitter of a variant: its only one, or that of this id."""
         ids = list(dict.fromkeys(e.get("emitterId") for e in variant.iter() if e.get("emitterId")))
         if name is None and len(ids) != 1:
-            raise fault(self.file, None, f'the variant "{variant.get("id")}" has {len(ids)} emitters' +
+            raise variant.fault(self.file, f'the variant "{variant.get("id")}" has {len(ids)} emitters' +
                         (f"; choose one by --emitter: {', '.join(map(str, ids[:12]))}" if ids else ""))
         if name is not None and name not in ids:
-            raise fault(self.file, None, f'the variant "{variant.get("id")}" has no emitter "{name[:40]}"; it has {", ".join(map(str, ids[:12]))}')
-        return self.named("Emitter", ids[0] if name is None else name, "")
+            raise variant.fault(self.file, f'the variant "{variant.get("id")}" has no emitter "{name[:40]}"; it has {", ".join(map(str, ids[:12]))}')
+        return self.named("Emitter", ids[0] if name is None else name, variant)
 
     def photometric_file(self, light):
         """The name of the photometric file of a light emitter in the archive, and what reads it."""
-        reference = light.find("PhotometryReference")
-        photometry = self.named("Photometry", None if reference is None else reference.get("photometryId"), " as the emitter wants it")
-        reference = photometry.find("PhotometryFileReference")
-        entry = self.named("File", None if reference is None else reference.get("fileId"), " as the photometry wants it")
+        photometry = self.referred(light, "PhotometryReference", "photometryId", "Photometry")
+        entry = self.referred(photometry, "PhotometryFileReference", "fileId", "File")
         kind, name = entry.get("contentType"), (entry.text or "").strip()
         if kind not in READERS:
-            raise fault(self.file, None, f'the photometric file "{name[:80]}" is of the type {str(kind)[:40]}, not one of {", ".join(READERS)}')
+            raise entry.fault(self.file, f'the photometric file "{name[:80]}" is of the type {str(kind)[:40]}, not one of {", ".join(READERS)}')
         if entry.get("type") != "localFileName":
-            raise fault(self.file, None, f'the photometric file "{name[:80]}" is not in the archive; nothing is loaded from elsewhere')
+            raise entry.fault(self.file, f'the photometric file "{name[:80]}" is not in the archive; nothing is loaded from elsewhere')
         if not name or "/" in name or "\\" in name or name in (".", ".."):
-            raise fault(self.file, None, f'the name of the photometric file "{name[:80]}" leaves its folder')
-        return f"ldc/{name}", READERS[kind]
+            raise entry.fault(self.file, f'the name of the photometric file "{name[:80]}" leaves its folder; it is to be a name in ldc')
+        return f"ldc/{name}", READERS[kind], entry
+
+    def referred(self, element, tag, attribute, wanted):
+        """The element that the reference inside of another leads to."""
+        reference = element.find(tag)
+        if reference is None:
+            raise element.fault(self.file, f"this {element.tag} has no {tag}, and so no {wanted}")
+        return self.named(wanted, reference.get(attribute), reference)
 
 
 def read_gldf(file, variant=None, emitter=None):
     """The Photometry of a variant (the first) of a GLDF file, with the rated flux of its emitter. Raises Fault."""
     archive = Archive(file)
-    product = Product(root_of(archive.read("product.xml"), f"{file}: product.xml"), file)
+    product = Product(root_of(archive.read(PRODUCT), f"{file}: {PRODUCT}"), file)
     chosen = product.variant(variant)
     found = product.emitter(chosen, emitter)
     light = next((e for e in found if e.tag in ("FixedLightEmitter", "ChangeableLightEmitter")), None)
     if light is None:
-        raise fault(file, None, f'the emitter "{found.get("id")}" is neither a FixedLightEmitter nor a ChangeableLightEmitter')
-    name, reader = product.photometric_file(light)
+        raise found.fault(product.file, f'the emitter "{found.get("id")}" has neither a FixedLightEmitter nor a ChangeableLightEmitter; others are not read')
+    name, reader, entry = product.photometric_file(light)
+    if not archive.has(name):
+        raise entry.fault(product.file, f'the archive has no file "{name[:80]}"')
     with tempfile.TemporaryDirectory() as folder:
         copy = os.path.join(folder, "photometry")
         with open(copy, "wb") as stream:
@@ -114,10 +127,10 @@ def read_gldf(file, variant=None, emitter=None):
             read = reader(copy)
         except Fault as text:
             raise fault(file, None, str(text).replace(copy, name)) from None
-    watts = watts_of(product, light, file) or read.watts
+    watts = watts_of(product, light) or read.watts
     title = text_of(chosen, "Name/Locale") or text_of(product.root, "ProductDefinitions/ProductMetaData/Name/Locale")
     maker = text_of(product.root, "Header/Manufacturer")
-    flux = number_of(light, "RatedLuminousFlux", file, 0, 1e9, 0.0)
+    flux = number_of(light, "RatedLuminousFlux", product.file, 0, 1e9, 0.0)
     measured, notes = read.lumens(), read.notes
     factor = flux / measured if flux > 0 and measured > 0 and not read.radiant else 1.0
     if abs(factor - 1) > DIFFERENT:
@@ -125,10 +138,10 @@ def read_gldf(file, variant=None, emitter=None):
     return replace(read, file=file, name=f"{maker} {title}".strip() or read.name, candela=read.candela * factor, watts=watts, notes=notes)
 
 
-def watts_of(product, light, file):
+def watts_of(product, light):
     """The rated power of the light source of an emitter; 0 if it is not stated."""
     for reference, tag in (("fixedLightSourceId", "FixedLightSource"), ("changeableLightSourceId", "ChangeableLightSource")):
         for element in light.iter():
             if element.get(reference):
-                return number_of(product.named(tag, element.get(reference), ""), "RatedInputPower", file, 0, 1e6, 0.0)
+                return number_of(product.named(tag, element.get(reference), element), "RatedInputPower", product.file, 0, 1e6, 0.0)
     return 0.0

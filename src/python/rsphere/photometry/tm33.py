@@ -1,9 +1,11 @@
 """Reads luminaires of ANSI/IES TM-33 (IES XML): angles and intensities of one emitter, luminous or radiant."""
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..fault import fault, number
 from .ies import MOST_ANGLES, all_round
-from .intensities import Photometry, checked_angles, checked_candela
+from .intensities import Photometry, checked_candela
 from .xml_file import number_of, root_of, text_of
 
 ROOTS = ("IESTM33", "IESTM33-22", "LuminaireOpticalData")
@@ -11,13 +13,12 @@ INTENSITIES = (("LuminousData/LuminousIntensity", False), ("RadiantData/RadiantI
 SMALLEST = 0.001  # m
 
 
+@dataclass
 class Place:
-    """Where faults are: the file alone."""
+    """Where faults are."""
 
-    line = None
-
-    def __init__(self, file):
-        self.file = file
+    file: str
+    line: int
 
 
 def read_tm33(file):
@@ -28,20 +29,21 @@ def read_tm33(file):
     except OSError as error:
         raise fault(file, None, f"cannot be read: {error.strerror}") from None
     if root.tag not in ROOTS:
-        raise fault(file, None, f'the XML is of a "{root.tag[:40]}", not of a TM-33 luminaire')
+        raise root.fault(file, f'the XML is of a "{root.tag[:40]}", not of a TM-33 luminaire, whose root is {ROOTS[0]}')
     emitters = root.findall("Emitter")
     if len(emitters) != 1:
-        raise fault(file, None, f"has {len(emitters)} emitters; a luminaire of one emitter is read")
+        where = emitters[1] if emitters else root
+        raise where.fault(file, f"there are {len(emitters)} emitters; one is read: give each a file of its own")
     emitter = emitters[0]
     element, radiant = next(((emitter.find(path), radiant) for path, radiant in INTENSITIES if emitter.find(path) is not None), (None, False))
     if element is None:
-        raise fault(file, None, "the emitter has neither LuminousIntensity nor RadiantIntensity")
+        raise emitter.fault(file, f"the emitter has neither {INTENSITIES[0][0]} nor {INTENSITIES[1][0]}; its intensities are needed")
     for tag in ("AbsolutePhotometry", "Absolute"):
         if text_of(element, tag).lower() in ("false", "0"):
-            raise fault(file, None, "intensities are relative; absolute ones are read")
+            raise element.find(tag).fault(file, "intensities are relative; absolute ones (cd) are read")
     planes, gammas, values = grid_of(element, file)
-    planes, values = all_round(Place(file), planes, values)
-    values = checked_candela(values * number_of(element, "Multiplier", file, 1e-9, 1e9, 1.0), file, None)
+    planes, values = all_round(Place(file, element.line), planes, values)
+    values = checked_candela(values * number_of(element, "Multiplier", file, 1e-9, 1e9, 1.0), file, element.line)
     shape, size = opening_of(root, emitter, file)
     name = f"{text_of(root, 'Header/Manufacturer')} {text_of(root, 'Header/Description')}".strip() or file
     watts = number_of(emitter, "InputWattage", file, 0, 1e6, 0.0)
@@ -50,21 +52,22 @@ def read_tm33(file):
 
 def grid_of(element, file):
     """Horizontal and vertical angles, and intensities (horizontal, vertical). Each pair of angles has one."""
-    found = {}
+    found, line = {}, element.line
     for data in element.iter("IntData"):
-        at = tuple(number(data.get(key) or "", file, None, f"the angle {key} of IntData", 0, 360 if key == "h" else 180) for key in "hv")
+        at = tuple(number(data.get(key) or "", file, data.line, f"the angle {key} of IntData", 0, 360 if key == "h" else 180) for key in "hv")
         if at in found:
-            raise fault(file, None, f"there are two intensities for h={at[0]:g}, v={at[1]:g}")
-        found[at] = number((data.text or "").strip(), file, None, "an intensity", 0, 1e9)
+            raise data.fault(file, f"there are two intensities for h={at[0]:g}, v={at[1]:g}; take one out")
+        found[at] = number((data.text or "").strip(), file, data.line, "an intensity", 0, 1e9)
     horizontal, vertical = ([*sorted({at[i] for at in found})] for i in range(2))
     if len(vertical) < 2 or max(len(horizontal), len(vertical)) > MOST_ANGLES:
-        raise fault(file, None, f"there are {len(horizontal)} horizontal and {len(vertical)} vertical angles")
+        raise fault(file, line, f"there are {len(horizontal)} horizontal and {len(vertical)} vertical angles; 1 and 2 are the least, and {MOST_ANGLES} the most")
     if len(found) != len(horizontal) * len(vertical):
-        raise fault(file, None, f"there are {len(found)} intensities for {len(horizontal)} x {len(vertical)} angles")
+        h, v = next((h, v) for h in horizontal for v in vertical if (h, v) not in found)
+        raise fault(file, line, f"there are {len(found)} intensities for {len(horizontal)} x {len(vertical)} angles; the first without one is h={h:g}, v={v:g}")
     values = np.array([[found[h, v] for v in vertical] for h in horizontal])
     if not values.any():
-        raise fault(file, None, "all intensities are 0")
-    return checked_angles(horizontal, file, None, "horizontal angles"), checked_angles(vertical, file, None, "vertical angles"), values
+        raise fault(file, line, "all intensities are 0")
+    return np.array(horizontal), np.array(vertical), values
 
 
 def opening_of(root, emitter, file):
