@@ -445,6 +445,9 @@ constexpr OptionEntry kOptions[] = {
      {.mode = Mode::points, .line = weightsLine}},
     // The quantities that sphere mode computes.
     {{"-Sg", "mod", "modifier of goals, which emit importance", Group::sphere, of<&O::goals>}},
+    {{"-Sgc", "", "caustics of lamps at points on|caustics of lamps at points off", Group::sphere,
+      ray<&RayOptions::caustics>},
+     pointsOnly()},
     {{"-SG", "file", "file of sensors as goals", Group::sphere, Custom{setSensors}},
      pointsOnly("rays do not meet sensors")},
     {{"-Sp", "", "separate answers for each goal or lamp|sum over goals or lamps", Group::sphere,

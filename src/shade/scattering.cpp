@@ -251,8 +251,10 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   s.cosine = at.cosine;
   const bool bends = isPerturbed(at) && !(at.kinds & kAmbient);
   if (bends) s.normal = perturbedNormal(at, s.cosine);
-  s.sharp.add({safelyMirrored(at, s.normal, s.cosine), Coefficient(material.reflectance * at.pattern),
-               kReflected, at.flat && !bends});
+  s.sharp.add({.direction = safelyMirrored(at, s.normal, s.cosine),
+               .coefficient = Coefficient(material.reflectance * at.pattern),
+               .lengthCounts = at.flat && !bends,
+               .imagesLamps = at.flat});
   return s;
 }
 

@@ -42,6 +42,7 @@ struct Medium {
 
 // Continues a path by sharp reflection or transmission, which needs no sampling. lengthCounts: whether an
 // undistorted image is seen along it, so that rtrace's -ol, -oR and -oX add the length of the new ray.
+// imagesLamps: shadow rays find the light of sources along it, too, by their images in a mirror.
 struct SharpPath {
   V3d direction{0, 0, 0};
   Coefficient coefficient;
@@ -49,6 +50,7 @@ struct SharpPath {
   bool lengthCounts = false;
   bool entersMedium = false;
   Medium medium{};
+  bool imagesLamps = false;
 };
 
 struct SharpPaths {

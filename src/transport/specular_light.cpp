@@ -19,8 +19,10 @@ double leastWeight(const PathSettings& settings, const PathContext& ray) {
 
 void SpecularLight::add(const RayEnd& end, const SharpPaths& sharp, RayResult& result) {
   const bool isShadow = end.context.kinds & kShadow;
+  const bool causticsCount = t_.options().caustics || (end.context.kinds & (kAmbient | kSpecular));
   for (const SharpPath& path : sharp) {
-    if ((isShadow && path.kind == kReflected) || isBlack(path.coefficient)) continue;
+    if (path.kind == kReflected && (isShadow || !(causticsCount || path.imagesLamps))) continue;
+    if (isBlack(path.coefficient)) continue;
     NextRay next(end, path.kind, path.coefficient);
     if (!goesOnAlong(next, t_, state_)) continue;
     if (!isShadow && end.context.ambientLevel > 0 &&

@@ -123,12 +123,12 @@ def plan_of(path, words, raypath_of):
         return stream.read()
 
 
-def has_mirrors(files):
-    """Whether surfaces mirror light without blur: special objects (rsphere -Sl) that are not panes of glass."""
+def mirrors_among(files):
+    """The materials of surfaces that mirror light without blur: special objects (rsphere -Sl) that are not panes of glass."""
     command = [program("rsphere"), "-h", "-w-", "-Sl", *files]
     run = subprocess.run(command, capture_output=True, check=False, stdin=subprocess.DEVNULL, encoding="utf-8", errors="surrogateescape")
     kinds = [line.split("\t")[1].split(" ")[0] for line in run.stdout.splitlines() if line.count("\t") >= 3]
-    return any(kind not in ("glass", "mist", "antimatter") for kind in kinds)
+    return {kind for kind in kinds if kind not in ("glass", "mist", "antimatter")}
 
 
 def names_matching(polygons, pattern):

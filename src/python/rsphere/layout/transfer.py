@@ -8,15 +8,18 @@ illuminance is linear in the light of the luminaires:
 where W is the importance that arrives at the luminaire when the goal, of area A, emits. rsphere gives W as means over
 zones of directions. Within a zone I is averaged, which is right for light that has been reflected diffusely, because W
 then varies slowly. Light that goes straight to the receiver does not: it is left out of W (-dv-), and computed by
-shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is added for
-surfaces: what W has without -dv-, in zones from which nothing goes straight to the surface.
+shadow rays from points of the receiver to points of the luminaire, through panes as well. Light by mirrors alone is added:
+what W has without -dv-, in zones from which nothing goes straight to the receiver.
+
+As in the check, surfaces and sensors (-I) have lamps in flat mirrors alone, and not in polished metal, panes or balls (-Sgc-),
+nor have the surfaces around them. Eyes (points of sphere mode) see lamps in all of these.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..progress import PROGRESS
-from .room import LIFT, goal_text, has_mirrors
+from .room import LIFT, goal_text, mirrors_among
 from .surface_parts import GOLDEN as GOLDEN_STEP
 from .surface_parts import PART, surface_parts
 from .zones import Zones
@@ -35,6 +38,8 @@ LEAST_DIRECTIONS = 64
 MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
+IMAGES = {"mirror", "prism1", "prism2"}  # materials that shadow rays find lamps in
+CHEAP = dict(ds=0, dj=0)  # for a difference without the light that this samples: an eighth of the time
 LEAST_OF_PLANES, LEAST_OF_SQUARES = 6, 12  # cells that a polynomial of degree one and two needs, twice its terms
 WEIGHTS = np.array([0.265, 0.670, 0.065])  # of red, green and blue in brightness
 
@@ -69,6 +74,7 @@ class Group:
     areas: np.ndarray
     first: int
     points: list  # of each goal, spread over it; None if light by mirrors is not looked for
+    caustics: bool  # whether this is also light by polished metal and balls
 
 
 @dataclass
@@ -169,7 +175,8 @@ class Transfer:
         self.fine, self.most_parts = fine, MOST_PARTS_BUILT if fine else MOST_PARTS
         self.receivers, self.groups = [], []
         self.index, self.cells = {}, {}
-        self.mirrors = has_mirrors(files)
+        kinds = mirrors_among(files)
+        self.images, self.mirrors = bool(kinds & IMAGES), bool(kinds)
         for i, surface in enumerate(design.surfaces.values()):
             self.add(Receiver(surface.name, "plane", surface.points, surface.normals, i, surface.cell_of))
         self.probe_groups = self.probes()
@@ -188,14 +195,14 @@ class Transfer:
             areas.append(surface.area())
         if areas:
             names = [f"layout_goal{i}" for i in range(len(areas))]
-            points = [s.fine_points() for s in self.design.surfaces.values()] if self.mirrors else None
-            self.groups.append(Group(self.scene_with(text, "goals"), names, np.array(areas), 0, points))
+            points = [s.fine_points() for s in self.design.surfaces.values()] if self.images else None
+            self.groups.append(Group(self.scene_with(text, "goals"), names, np.array(areas), 0, points, False))
 
     def goal_count(self):
         return sum(len(g.areas) for g in self.groups)
 
     def probes(self):
-        """Receivers of sensors and eyes, in groups of which the members hide little of each other."""
+        """Receivers of sensors and eyes, in groups of which the members hide little of each other: sensors apart from eyes."""
         receivers = [Receiver(s.name, "plane", s.position[None], s.normal[None], 0) for s in self.design.sensors.values()]
         for e in self.design.eyes.values():
             receivers.append(Receiver(e.name, "cylinder", e.position[None], np.array([[0, 0, 1.0]]), 0))
@@ -203,7 +210,8 @@ class Transfer:
                 receivers.append(Receiver(e.name, "eye", e.position[None], e.gaze[None], 0))
         groups = []
         for r in receivers:
-            apart = [all(np.linalg.norm(r.points - o.points) > APART * self.design.units for o in group) for group in groups]
+            apart = [all(np.linalg.norm(r.points - o.points) > APART * self.design.units and (r.kind == "plane") == (o.kind == "plane") for o in group)
+                     for group in groups]
             if True not in apart:
                 groups.append([])
                 apart.append(True)
@@ -222,7 +230,9 @@ class Transfer:
                 names.append(name)
                 areas.append(area)
             if group:
-                self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first, None))
+                eyes = group[0].kind != "plane"
+                points = [r.points for r in group] if (self.mirrors if eyes else self.images) else None
+                self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first, points, eyes))
 
     def add_cells(self):
         """Sensors on surfaces that are to be even: their points, or the middles of those of each cell."""
@@ -236,8 +246,8 @@ class Transfer:
                 sensors += list(receiver.cell_means(at) if many else at)
                 self.cells[i] = slice(begin, first + len(sensors)), (lambda v: v) if many else receiver.cell_means
         if sensors:
-            points = [s[None, :3] for s in sensors] if self.mirrors else None
-            self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points))
+            points = [s[None, :3] for s in sensors] if self.images else None
+            self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points, False))
 
     def scene_with(self, text, name):
         path = f"{self.folder}/{name}.rad"
@@ -342,13 +352,14 @@ class Transfer:
                 here = np.flatnonzero((which >= begin) & (which < begin + step))  # parts
                 for k in range(SETS):
                     # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
-                    def bins(bounces, dv, group=group, at=places[begin : begin + step], k=k):
+                    def bins(bounces, dv, caustics=False, group=group, at=places[begin : begin + step], k=k, **options):
                         a = group.scene.importance(at, goals=group.goals, bins=zones.count, outputs="z", rotation=k,
-                                                   ambient_bounces=bounces, directions=directions, dv=dv)
+                                                   ambient_bounces=bounces, directions=directions, dv=dv, Sgc=caustics, **options)
                         return a.bins.reshape(-1, len(group.areas), zones.count, 3) @ WEIGHTS / group.areas[:, None]
 
                     reflected = bins(self.bounces, False)
-                    mirrored = bins(0, True) - bins(0, False) if group.points else None
+                    if group.points:
+                        mirrored = bins(0, True, group.caustics, **CHEAP) - bins(0, False, group.caustics, **CHEAP)
                     for part in here:
                         at = which[part] - begin
                         w = reflected[at]

@@ -2,7 +2,7 @@
 import os
 
 from ..command import Options
-from ..fault import fault
+from ..fault import Fault, fault
 from . import radiant
 from .lamp_rad import UNITS, pattern_text, surfaces_text, word, write_data
 from .luminaire_file import read_luminaire
@@ -22,7 +22,7 @@ def main():
     parser.add_argument("file")
     parser.add_argument("-u", "--units", choices=UNITS, default="m", metavar="UNIT", help=f"of the scene: {', '.join(UNITS)}")
     parser.add_argument("-f", "--factor", type=float, default=1.0, metavar="X", help="on the light, such as a maintenance factor")
-    parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="for the data file")
+    parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="for panel.dat and lamp.cal; the scene goes to the standard output")
     parser.add_argument("--intensity", choices=radiant.UNITS, metavar="UNIT", help=f"of an IES file that does not say it: {', '.join(radiant.UNITS)}")
     parser.add_argument("--variant", metavar="ID", help="of a GLDF file: the first")
     parser.add_argument("--emitter", metavar="ID", help="of a variant that has several")
@@ -37,6 +37,9 @@ def main():
         print(given.form(UgrTable(photometry, given.spacing, given.factor * photometry.tilt_factor(0))), end="")
         return
     name = word(os.path.splitext(os.path.basename(given.file))[0])
+    if os.path.splitext(given.output)[1] in (".rad", ".dat") or os.path.isfile(given.output):
+        raise Fault(f"-o {given.output}: this is the folder of the data file; the scene goes to the standard output, as in: "
+                    f"rsphere-luminaire {given.file} > {name}.rad")
     try:
         os.makedirs(given.output, exist_ok=True)
         data = write_data(photometry, given.output, name)
