@@ -133,6 +133,14 @@ class Layouts(unittest.TestCase):
         planned, found = self.values(run)["illuminance"]
         self.assertAlmostEqual(planned / found, 1, delta=0.012)
 
+    def test_polished_steel(self):
+        """The plan had the lamp that walls see in a sheet of steel, and the check had not: 17% above found."""
+        steel = "void metal polished 0 0 5 .8 .8 .8 .95 0\npolished polygon sheet 0 0 12 2.4 1 .2 5.6 1 .2 5.6 4 .2 2.4 4 .2\n"
+        lines = ["place panel 4 2.5 2.9", "illuminance floor 10 margin .3"]
+        run, _, _ = self.run_on(lines, steel, "-c", "128", "-d", "1024", "-b", "3")
+        planned, found = self.values(run)["illuminance"]
+        self.assertAlmostEqual(planned / found, 1, delta=0.02, msg=run.stdout)
+
     def test_daylight_where_points_are_left_out(self):
         """It was computed at all points, and did not fit the light of luminaires."""
         lines = ["grid panel ceiling spacing 4 5", "scene day", f"daylight {os.path.join(CASES, 'sky.rad')}", "illuminance floor 20 uniformity .1"]

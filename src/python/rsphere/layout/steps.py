@@ -431,7 +431,7 @@ class Steps:
         more = [p.value / f.value - 1 for p, f in missed if p.met() and p.goal.kind not in ("most", "ugr") and f.value > 0]
         if len(more) < len(missed):
             return " More seconds for the search (-s) or more places may meet them."
-        return f" They are met as planned, where panes and polished metal also send the light of luminaires: goals that ask for {max(more):.0%} more will be met."
+        return f" They are met as planned: goals that ask for {max(more):.0%} more will be met."
 
     def verdict(self):
         if not any(f for *_, f in self.rows):
