@@ -9,7 +9,7 @@ import numpy as np
 import rsphere
 from rsphere.fault import Fault
 from rsphere.photometry import read_luminaire
-from run_here import InAFolder, built
+from run_here import InAFolder, built, run_here
 
 CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
 PANEL = os.path.join(CASES, "panel.ies")
@@ -264,6 +264,14 @@ class AsScene(Files):
         run = subprocess.run([built("rsphere-luminaire"), PANEL, "-o", folder], capture_output=True, text=True, check=False)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertEqual(sorted(os.listdir(folder)), ["lamp.cal", "panel.dat"])
+
+    def test_folder_that_is_a_file(self):
+        """Of ies2rad, -o is the name of the scene; here it was a folder of that name."""
+        for name in ("panel.rad", "panel.dat", self.file("", "panel")):
+            run = run_here([built("rsphere-luminaire"), PANEL, "-o", os.path.join(self.folder.name, name)])
+            self.assertEqual((run.returncode, run.stdout), (1, ""))
+            self.assertRegex(run.stderr, r"\Arsphere-luminaire: fatal - -o .*: this is the folder of the data file; the scene goes to the standard output, .*panel\.rad\n\Z")
+        self.assertEqual(os.listdir(self.folder.name), ["panel"])
 
 
 if __name__ == "__main__":
