@@ -1,6 +1,7 @@
 """UGR tables of luminaires (rsphere.photometry): closed forms, equal luminaires in other files, and a room that is traced."""
 import os
 import unittest
+import unittest.mock
 import xml.dom.minidom
 
 import numpy as np
@@ -9,6 +10,7 @@ import rsphere
 from rsphere.photometry import read_luminaire
 from rsphere.photometry.lamp_rad import pattern_text, rotation, surfaces_text, turning_words, write_data
 from rsphere.photometry.ugr_table import REFLECTANCES, ROOMS, Direct, UgrTable, form_factor, glare_sum, indirect, places
+from rsphere.layout.surface_parts import surface_parts
 from run_here import InAFolder, built, run_here
 
 PANEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases/panel.ies")
@@ -97,6 +99,26 @@ class Tables(InAFolder):
         self.assertAlmostEqual(float(lamp.luminous_area(-level)), 0)
         self.assertAlmostEqual(float(lamp.luminous_area(down)), 0.2)
         self.assertAlmostEqual(float(lamp.luminous_area((level + down) / np.sqrt(2))), 0.3 / np.sqrt(2))
+
+    def test_sides_as_scene(self):
+        """All sides had the height of the highest one: the luminaire was too dim, and its traced UGR 1.5 below its table."""
+        gammas = list(range(0, 181, 45))
+        lines = ["maker", 1, 0, 4, 90, 5, 0, "report", "lamp", 7, "file.ldt", "today", 400, 200, 80, 400, 200, 300, 100, 200, 0, 50, 100, 1, 0,
+                 1, 1, "LED", 1000, 830, 80, 10, *[0] * 10, 0, 90, 180, 270, *gammas, *[300] * 20]
+        lamp = self.lamp("\r\n".join(map(str, lines)) + "\r\n", "lamp.ldt")
+        data, lights = write_data(lamp, self.folder.name, "lamp"), os.path.join(self.folder.name, "room.rad")
+        with open(lights, "w", encoding="ascii") as stream:
+            stream.write(pattern_text(lamp, "lamp", data, 1) + surfaces_text(lamp, "l", "lamp"))
+        towards = np.array([[-1, 0, 0], [0, -1, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0], [-0.6, 0, 0.8]])
+        with unittest.mock.patch.dict(os.environ, RAYPATH=self.folder.name):
+            seen = rsphere.photometric(rsphere.Scene([lights]).trace(np.hstack([-5 * towards - [0, 0, 0.14], towards]) * 1.0).value)
+            far = rsphere.Scene([lights]).trace(np.hstack([-200 * towards, towards]), irradiance_at_origin=True, ds=0.02).value
+        area = np.array([0.12, 0.02, 0.08, np.inf, 0.08, 0.6 * 0.12 + 0.8 * 0.08])
+        np.testing.assert_allclose(seen[:5], (300 / area)[:5], rtol=1e-4)
+        np.testing.assert_allclose(rsphere.photometric(far)[[0, 1, 2, 4, 5]] * 200**2, 300, rtol=0.01)
+        parts = surface_parts(lamp, 200)
+        np.testing.assert_allclose(parts.areas.sum(), 0.16 + 0.12 + 0.02 + 0.08)
+        self.assertLess(parts.points[parts.normals[:, 1] > 0.9][:, 2].max(), -0.05 + 1e-9)
 
     def test_no_light_towards_the_eye(self):
         """A narrow spot: no logarithm of 0, and a row of <10."""

@@ -99,9 +99,11 @@ def surfaces(photometry):
     axes = np.eye(3)
     found = [(x * y, lambda most, z=z, u=u: rectangle(z * axes[2], x * axes[0], y * axes[1], axes[2] if u else -axes[2], most)) for z, u in ends]
     if sides:
-        for sign in (-1, 1):
-            found.append((y * h, lambda most, s=sign: rectangle(s * x / 2 * axes[0], y * axes[1], h * axes[2], s * axes[0], most)))
-            found.append((x * h, lambda most, s=sign: rectangle(s * y / 2 * axes[1], x * axes[0], h * axes[2], s * axes[1], most)))
+        for axis, sign, high in zip((0, 1, 0, 1), (1, 1, -1, -1), photometry.heights()):
+            out, along, width = sign * axes[axis], axes[1 - axis], (y, x)[axis]
+            middle = (x, y)[axis] / 2 * out + (high - h) / 2 * axes[2]
+            if high > 0:
+                found.append((width * high, lambda most, m=middle, a=width * along, u=high * axes[2], o=out: rectangle(m, a, u, o, most)))
     return found
 
 

@@ -71,6 +71,10 @@ class Photometry:
         """Whether there is light below and above the horizontal, by the angles of the file."""
         return bool(self.gammas[0] < 90), bool(self.gammas[-1] > 90)
 
+    def heights(self):
+        """Of the luminous sides of a box that face C0, C90, C180 and C270."""
+        return self.sides or (self.size[2],) * 4
+
     def luminous_area(self, directions):
         """The luminous area (m2) in view from directions (..., 3): unit vectors from the luminaire."""
         d = np.asarray(directions, dtype=float)
@@ -79,7 +83,7 @@ class Photometry:
             return np.full(d.shape[:-1], np.pi / 4 * x * x)
         if self.shape == "cylinder":
             return np.pi / 4 * x * x * np.abs(d[..., 2]) + x * h * np.hypot(d[..., 0], d[..., 1])
-        sides = self.sides or (h, h, h, h)
+        sides = self.heights()
         ahead, beside = np.where(d[..., 0] > 0, *sides[::2]), np.where(d[..., 1] > 0, *sides[1::2])
         return x * y * np.abs(d[..., 2]) + y * ahead * np.abs(d[..., 0]) + x * beside * np.abs(d[..., 1])
 

@@ -57,8 +57,10 @@ def pattern_text(photometry, name, data, factor, turning=()):
         function, numbers = "flat", [factor / area]
     elif photometry.shape == "cylinder":
         function, numbers = "cylinder", [factor, x, h]
-    else:
+    elif len(set(photometry.heights())) == 1:
         function, numbers = "box", [factor, x, y, h]
+    else:
+        function, numbers = "sides", [factor, x, y, *photometry.heights()]
     shown = " ".join(f"{v:.9g}" for v in numbers)
     words = ["", function, data, "lamp.cal", "azimuth", "gamma", *turning]
     return (f"void brightdata {name}_light\n{len(words) - 1}{' '.join(words)}\n0\n{len(numbers)} {shown}\n"
@@ -106,9 +108,11 @@ def faces(photometry):
     if up:
         found.append(("polygon", [v for p in bottom[::-1] for v in (*p, half)], "p" * 12))
     if down and up and h > 0:
-        for p, q in zip(bottom, bottom[1:] + bottom[:1]):
-            side = [(*p, -half), (*p, half), (*q, half), (*q, -half)]
-            found.append(("polygon", [v for corner in side for v in corner], "p" * 12))
+        c0, c90, c180, c270 = photometry.heights()
+        for p, q, high in zip(bottom, bottom[1:] + bottom[:1], (c180, c90, c0, c270)):
+            side = [(*p, -half), (*p, high - half), (*q, high - half), (*q, -half)]
+            if high > 0:
+                found.append(("polygon", [v for corner in side for v in corner], "p" * 12))
     return found
 
 
