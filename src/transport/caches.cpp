@@ -13,7 +13,8 @@ namespace {
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   // Names all members, so that this fails to compile when an option is added. Add the new option below if it
   // changes gathered light. Not used: `sampling`, because spectral runs are not stored; -aw,
-  // -Sgc and, where sites are gathered, -Sh, which have no effect; -af and -Sm, which only select where and how much is stored.
+  // -Sgc and, where sites are gathered, -Sh, which have no effect; -af and -Sm, which only select where and
+  // how much is stored.
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, caustics, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
