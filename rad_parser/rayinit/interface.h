@@ -18,7 +18,8 @@ namespace rad::calc {
 Interface sceneInterface(const FileAccess& access = {});
 
 // The text of a function file in this program, which is used if no such file is found: rayinit.cal, and those
-// for bins of rcontrib: reinhart.cal, reinhartb.cal, tregenza.cal. Empty for other names.
+// for bins of rcontrib: reinhart.cal, reinhartb.cal, tregenza.cal, klems_full.cal, klems_half.cal,
+// klems_quarter.cal. Empty for other names.
 std::optional<std::string_view> builtInFile(std::string_view name);
 
 }  // namespace rad::calc

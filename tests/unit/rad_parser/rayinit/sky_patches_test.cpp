@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "rad_parser/rayinit/interface.h"
 
@@ -98,6 +100,43 @@ TEST(SkyPatches, OfReinhartAroundAnyDirection) {
     EXPECT_EQ(bins.value("Nrbins"), patches);
   }
   EXPECT_EQ(Bins("reinhartb.cal").value("Nrbins"), 145);
+}
+
+struct Klems {
+  std::string kind, letter;
+  std::vector<double> edges;  // in degrees from the normal
+  std::vector<int> counts;
+};
+
+// The middle of each patch and points near its corners, for rays that leave by a window to the north.
+TEST(SkyPatches, OfKlems) {
+  for (const Klems& k :
+       {Klems{"full", "", {0, 5, 15, 25, 35, 45, 55, 65, 75, 90}, {1, 8, 16, 20, 24, 24, 24, 16, 12}},
+        Klems{"half", "h", {0, 6.5, 19.5, 32.5, 45.5, 58.5, 71.5, 90}, {1, 8, 12, 16, 20, 12, 8}},
+        Klems{"quarter", "q", {0, 9, 27, 45, 63, 90}, {1, 8, 12, 12, 8}}}) {
+    for (const int hand : {1, -1}) {
+      Bins bins(fmt::format("klems_{}.cal", k.kind), fmt::format("RHS={};", hand));
+      const std::string bin = fmt::format("k{}bin(0,-1,0, 0,0,1)", k.letter);
+      int number = 0;
+      for (size_t row = 0; row < k.counts.size(); ++row)
+        for (int place = 0; place < k.counts[row]; ++place, ++number)
+          for (const double out : {.01, .5, .99})
+            for (const double beside : {-.49, 0., .49}) {
+              const double polar = k.edges[row] + out * (k.edges[row + 1] - k.edges[row]);
+              const std::array<double, 3> d =
+                  towards(90 - polar, 90 - 360. / k.counts[row] * (place + beside));
+              ASSERT_EQ(bins.value(bin, {-hand * d[0], d[2], -d[1]}), number) << k.kind << ' ' << polar;
+              ASSERT_EQ(bins.value(bin, {-hand * d[0], -d[2], -d[1]}), -1);
+            }
+      EXPECT_EQ(bins.value(fmt::format("Nk{}bins", k.letter)), number);
+    }
+  }
+  Bins full("klems_full.cal");
+  const double north = full.value("kbinN", {.6, .64, .48});
+  EXPECT_EQ(full.value("kbinE", {.64, -.6, .48}), north);
+  EXPECT_EQ(full.value("kbinS", {-.6, -.64, .48}), north);
+  EXPECT_EQ(full.value("kbinW", {-.64, .6, .48}), north);
+  EXPECT_EQ(full.value("kbinD", {-.6, .48, .64}), north);
 }
 
 }  // namespace
