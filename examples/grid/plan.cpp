@@ -35,6 +35,7 @@ constexpr const char* kUsage =
   -r        measure the back of the polygon
   -z        leave out points of 0 lx, which are inside of furniture
   -f F      maintenance factor, by which all illuminances are multiplied (1)
+  -D E      daylight factors, in percent of this horizontal illuminance outdoors, which sky.rad states
   -o FILE   draw the plan, as SVG
   -l A,B,.. illuminances of the isolines (round numbers)
   -w        write the illuminances into the plan
@@ -62,6 +63,7 @@ std::vector<std::string> defaults() {
 struct Settings {
   std::vector<std::string> surfaces, context, files, rtrace = defaults();
   double height = 0, spacing = 0, margin = 0, maintenance = 1;
+  double outdoors = 0;  // lx; 0: no daylight factors
   bool upOnly = false, reversed = false, skipDark = false, values = false, onlyPoints = false;
   bool allPolygons = false;
   std::string picture, title, table, readings, unit = "lx";
@@ -115,6 +117,8 @@ Settings settingsOf(const std::vector<std::string>& words) {
       s.margin = number(word, argument(), 0);
     else if (word == "-f")
       s.maintenance = number(word, argument(), 1e-9);
+    else if (word == "-D")
+      s.outdoors = number(word, argument(), 1e-9);
     else if (word == "-l")
       s.levels = levelsOf(argument());
     else if (word == "-o")
@@ -151,9 +155,11 @@ Settings settingsOf(const std::vector<std::string>& words) {
     if (std::filesystem::is_fifo(file))
       throw rad::Error(
           fmt::format("{}: is a pipe, and files are read twice: write it to a file first", file));
+  if (s.outdoors > 0 && s.unit != "lx") throw rad::Error("-D and -q exclude each other");
   if (s.unit != "lx" && s.unit != kRadiant && s.readings.empty())
     throw rad::Error(fmt::format("-q is for what -i reads; without -i, {} is the only other unit", kRadiant));
   rsphere::requireSvgName("-o", s.picture, "the plan");
+  if (s.outdoors > 0) s.unit = "%";
   return s;
 }
 
@@ -226,7 +232,9 @@ std::string titleOf(const Settings& s) {
       s.height == 0 ? "on" : fmt::format("{:.4g} {}", std::abs(s.height), s.height > 0 ? "above" : "behind");
   if (s.unit == kRadiant && s.readings.empty())
     return fmt::format("Irradiance {} {} ({})", where, fmt::join(s.surfaces, ", "), s.unit);
-  if (s.unit != "lx") return fmt::format("{} {} ({})", where, fmt::join(s.surfaces, ", "), s.unit);
+  if (s.unit != "lx")
+    return fmt::format("{}{} {} ({})", s.outdoors > 0 ? "Daylight factor " : "", where,
+                       fmt::join(s.surfaces, ", "), s.unit);
   return fmt::format("{} {} {} (lx)", s.maintenance == 1 ? "Illuminance" : "Maintained illuminance", where,
                      fmt::join(s.surfaces, ", "));
 }
@@ -263,7 +271,7 @@ void run(const Settings& s) {
       s.readings.empty() ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files, s.unit == kRadiant)
                          : Illuminances{readIlluminances(s.readings, sensors.size()), {}};
   const std::string largestError = errorText(sensors, values, errors);
-  for (double& value : values) value *= s.maintenance;
+  for (double& value : values) value *= s.maintenance * (s.outdoors > 0 ? 100 / s.outdoors : 1);
   std::vector<bool> lit;
   for (const double value : values) lit.push_back(value > 0);
   auto dark = static_cast<size_t>(std::count(lit.begin(), lit.end(), false));
@@ -278,7 +286,7 @@ void run(const Settings& s) {
       }
     values.resize(kept);
     sensors.resize(kept);
-  } else if (dark > 0 && s.unit == "lx") {
+  } else if (dark > 0 && (s.unit == "lx" || s.outdoors > 0)) {
     warn(dark == lit.size()
              ? fmt::format("0 lx at all {} points; is there a light source, and is -h in the units of the "
                            "scene?",

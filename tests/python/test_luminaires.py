@@ -45,7 +45,7 @@ OF_DOWNLIGHT = [
 def eulumdat(**changes):
     """A text like BOX's kind: a box of .3 x 1.2 m, symmetric about both planes, 90 cd/klm straight down."""
     lines = ["maker", "1", "4", "4", "90", "3", "45", "report", "strip", "7", "file.ldt", "today",
-             "1200", "300", "80", "1190", "290", "0", "0", "0", "0", "100", "80", "1", "0",
+             "1200", "300", "80", "1190", "290", "0", "0", "0", "0", "100", "25", "1", "0",
              "1", "2", "LED", "4000", "830", "80", "36", *["0"] * 10,
              "0", "90", "180", "270", "0", "45", "90", "90", "50", "0", "90", "60", "10"]
     for place, text in changes.items():
@@ -150,6 +150,12 @@ class Ies(Files):
 
 
 class Eulumdat(Files):
+    def test_a_light_output_ratio_that_intensities_lack_is_told(self):
+        found = read_luminaire(self.file(eulumdat(), "strip.ldt")).lumens() / 40
+        notes = [read_luminaire(self.file(eulumdat(L23=f"{ratio:g}"), "strip.ldt")).notes for ratio in (1.05 * found, 1.2 * found, 0)]
+        self.assertEqual([len(of) for of in notes], [0, 1, 0])
+        self.assertIn(f"have {found:.0f}% of the light of the lamps, and the file says {1.2 * found:.0f}%", notes[1][0])
+
     def test_hostile(self):
         for changes, line, words in (
             ({"l3": "7"}, 3, "symmetry"),

@@ -225,7 +225,7 @@ def light_of_scene(given, weather, polygons, notes):
         warn("--shades " + name, "lowered, they change the light at no sensor: is this the window, and are its blinds in front of it?")
     dark = int((light.year.open.sum(axis=(0, 2)) == 0).sum())
     if dark:
-        warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something")
+        warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something; a list of the others (--sensors) leaves them out")
     notes += light.notes()
     return light, sensors, planes, eyes, glare
 

@@ -10,9 +10,9 @@ from .ugr_table import SPACINGS, UgrTable
 from .ugr_text import csv, svg, text
 
 TEXT = """\
-Writes the luminaire at the origin, aimed down; `xform -t 2 3 2.9 panel.rad` moves it. The intensities are in panel.dat,
-which is written beside its formulas, lamp.cal, into the folder of -o; rsphere and rtrace look there if the folder is in
-RAYPATH. C0 is along +x, and C90 along +y.
+Writes the luminaire at the origin, aimed down: C0 is along +x, and C90 along +y. In a scene file, the line
+!xform -t 2 3 2.9 panel.rad hangs it; rsphere has xform. The intensities are in panel.dat, which is written beside its
+formulas, lamp.cal, into the folder of -o. rsphere finds both beside panel.rad; RADIANCE's rtrace needs the folder in RAYPATH.
 
 With --ugr, prints the UGR table of CIE 117 and CIE 190 instead: 19 rooms by 5 reflectances, seen crosswise and endwise."""
 

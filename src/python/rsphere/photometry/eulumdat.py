@@ -8,6 +8,7 @@ from .intensities import Photometry, checked_angles, checked_candela, unfolded
 
 MOST_PLANES = 721
 MOST_LAMPS = 20
+DOUBTFUL = 0.1  # how far a light output ratio may be from that of the intensities until it is told
 
 
 class Lines(Numbers):
@@ -111,7 +112,7 @@ def read_eulumdat(file):
         raise fault(file, 4, f"{planes} C planes do not fit symmetry {symmetry}")
     shape, size, sides = read_opening(lines)
     lines.number("the downward flux fraction (%)", 0, 100)
-    lines.number("the light output ratio (%)", 0, 1000)
+    ratio = lines.number("the light output ratio (%)", 0, 1000)
     factor = lines.number("the factor on intensities", 1e-9, 1e9)
     lines.number("the tilt during the measurement", -360, 360)
     lumens, watts = read_lamps(lines)
@@ -131,7 +132,11 @@ def read_eulumdat(file):
     # cd per 1000 lm of the lamps, also where a negative number of lamps marks absolute photometry.
     candela = checked_candela(candela * factor * lumens / 1000, file, lines.line)
     name = f"{maker} {name}".strip() or os.path.basename(file)
-    return Photometry(file, name, used, vertical, candela, shape, size, watts, axis="y", sides=sides)
+    read = Photometry(file, name, used, vertical, candela, shape, size, watts, axis="y", sides=sides)
+    found = 100 * read.lumens() / lumens
+    if ratio and abs(found / ratio - 1) > DOUBTFUL:
+        read.notes += (f"the intensities have {found:.0f}% of the light of the lamps, and the file says {ratio:.0f}%; they hold",)
+    return read
 
 
 def check_symmetry(lines, angles, symmetry):
