@@ -35,9 +35,10 @@ class Field {
 
 // Round values between the smallest and the largest of these: EN 12464-1's scale of illuminances (1, 1.5, 2,
 // 3, 5, 7.5, 10, ...). If there are ten values or more, the lowest and the highest 2% (at least one of each)
-// have no levels of their own: one point inside of furniture would take half of the levels. If nine tenths of
-// the values span less than a factor of 4, equal steps divide their range. Ascending, at most 14, none if all
-// values are equal. REQUIRES: at least one value.
+// have no levels of their own: one point inside of furniture would take half of the levels. Below what a
+// twentieth of the lit points has, there are two at most. If nine tenths of the values span less than a
+// factor of 4, equal steps divide their range. Ascending, at most 14, none if all values are equal.
+// REQUIRES: at least one value.
 std::vector<double> roundLevels(std::span<const double> values);
 
 }  // namespace grid

@@ -272,6 +272,14 @@ TEST(GridIsolines, OnePointOfNothingHasNoLevels) {
   EXPECT_GE(levels.front(), 300);
 }
 
+// A shaded corner of 4% of the floor had six lines, one on the other.
+TEST(GridIsolines, DarkCornersHaveTwoLevels) {
+  std::vector<double> values;
+  for (int i = 0; i < 96; ++i) values.push_back(20 + 10 * i);
+  for (const double dark : {0., .3, 2., 6.}) values.push_back(dark);
+  EXPECT_EQ(roundLevels(values), (std::vector<double>{15, 20, 30, 50, 75, 100, 150, 200, 300, 500, 750}));
+}
+
 TEST(GridSummary, ByTheNamesOfTheStandard) {
   const double values[] = {100, 200, 300, 400};
   const Summary summary(values);
