@@ -490,8 +490,6 @@ constexpr OptionEntry kOptions[] = {
     {{"-Sf", "", "names of the columns in the header|no names of columns", Group::sphere,
       of<&O::namesColumns>}},
     // Options for examining how answers were obtained.
-    {{"-Sv", "", "verify weights|weights not verified", Group::sphere, sphere<&SphereOptions::verify>},
-     pointsOnly()},
     {{"-Si", "pic", "picture of the view from each point", Group::sphere, of<&O::picture>},
      pointsOnly("for pictures of rays, use -fac with -x and -y")},
     {{"-Siw", "N", "width of pictures; 0: 1024, of fisheyes 800", Group::sphere,

@@ -32,8 +32,7 @@ namespace rsphere {
 class SphereEstimator {
  public:
   // Finds the special objects and, for -Sw c, measures how much the radiance on them varies. standardError:
-  // whether PointAnswer should contain standard errors; -Sa computes them in any case. Throws rad::Error if
-  // the solid angles of the base directions fail the check of -Sv.
+  // whether PointAnswer should contain standard errors; -Sa computes them in any case.
   SphereEstimator(const Transport& transport, const SphereOptions& options, bool standardError = false);
   SphereEstimator(const SphereEstimator&) = delete;
   SphereEstimator& operator=(const SphereEstimator&) = delete;

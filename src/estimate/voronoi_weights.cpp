@@ -41,7 +41,6 @@ SampledSet VoronoiWeights::sample(const SetAtPoint& set, PathTracer& tracer, Vor
   directions.insert(directions.end(), dynamic.begin(), dynamic.end());
   const auto solidAngles =
       set.isFirst() ? cellSolidAngles(triangulation_, dynamic, memory) : cellSolidAngles(directions, memory);
-  if (options_.verify) checkCells(memory);
   SampledSet sampled = traceEach(set, directions, solidAngles, options_.everyDirection, tracer);
   if (base_.neighbours) sampled.setVariance(neighboursOf(memory), base_);
   return sampled;

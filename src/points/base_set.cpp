@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "rad_parser/error.h"
 #include "sphere/directions.h"
 
 namespace rsphere {
@@ -15,22 +14,17 @@ BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampli
     base.kernels.zones = std::make_shared<const DirectionBins>(static_cast<size_t>(options.zones));
   const bool equal = options.weights == Weights::homogeneous;
   if (equal) base.solidAngles.assign(count, 4 * std::numbers::pi / static_cast<double>(count));
-  if (equal && !standardErrors && !options.verify) return base;
+  if (equal && !standardErrors) return base;
   VoronoiWorkspace workspace;
   const auto areas = cellSolidAngles(base.directions, workspace);
   if (!equal) base.solidAngles.assign(areas.begin(), areas.end());
   if (standardErrors) base.neighbours = neighboursOf(workspace);
-  if (options.verify) checkCells(workspace);
   return base;
 }
 
 Neighbours neighboursOf(const VoronoiWorkspace& workspace) {
   VoronoiCells cells = voronoiCells(workspace);
   return {std::move(cells.first), std::move(cells.neighbour)};
-}
-
-void checkCells(const VoronoiWorkspace& workspace) {
-  if (const auto fault = voronoiFault(workspace)) throw rad::Error("weights of the directions: " + *fault);
 }
 
 }  // namespace rsphere

@@ -20,13 +20,10 @@ struct BaseSet {
 };
 
 // Makes -Sn directions, rotated by -Sr. With -Sw h their solid angles are equal, otherwise those of their
-// Voronoi cells. Throws rad::Error if the cells fail the check of -Sv.
+// Voronoi cells.
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 
 // The pairs of directions whose Voronoi cells share a side, in the last query of the workspace.
 Neighbours neighboursOf(const VoronoiWorkspace& workspace);
-
-// Throws rad::Error if the cells of the workspace's last query are wrong (voronoiFault).
-void checkCells(const VoronoiWorkspace& workspace);
 
 }  // namespace rsphere

@@ -70,8 +70,7 @@ class SamplingStrategy {
   virtual ~SamplingStrategy() = default;
 
   // Traces one set of directions. The result depends only on the set, the scene and the options. tracer,
-  // memory: of the calling thread; memory only saves time. Throws rad::Error if solid angles fail the check
-  // of -Sv.
+  // memory: of the calling thread; memory only saves time.
   virtual SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const = 0;
 };
 

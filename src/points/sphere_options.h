@@ -44,7 +44,6 @@ struct SphereOptions {
   std::string zoneOf, zoneCount;                // -Szb -Szn  expressions for bins; empty: not given
   std::shared_ptr<const DirectionBins> bins{};  // from these expressions; their number is `zones`
   double azimuth = 0;                           // -So  degrees, from x towards y
-  bool verify = false;                          // -Sv
   Kernels::Some quantityErrors{};               // quantities other than the mean that have standard errors
   GlareOptions glare;                           // -Su -Sub -Sut
 

@@ -285,32 +285,4 @@ void Delaunay::mergeHidden(std::uint32_t p, std::span<const std::uint32_t> hole,
   }
 }
 
-std::optional<std::string> Delaunay::fault(std::span<const std::uint32_t> names) const {
-  const auto name = [&](std::uint32_t site) { return std::to_string(names[site]); };
-  PredicateCounts ignored;
-  std::size_t corners = 0, faces = 0;
-  for (std::uint32_t site = 0; site < sites.size(); ++site) corners += standsFor[site] == site;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& triangle = triangles[t];
-    const auto& k = triangle.corner;
-    if (k[0] == kNone) continue;
-    ++faces;
-    for (std::uint32_t e = 0; e < 3; ++e) {
-      const Triangle& other = triangles[triangle.next[e] / 4];
-      const std::uint32_t back = triangle.next[e] % 4;
-      if (other.next[back] != 4 * t + e || other.corner[kAfter[back]] != k[kBefore[e]] ||
-          other.corner[kBefore[back]] != k[kAfter[e]]) {
-        return "triangles do not fit together at direction " + name(k[kAfter[e]]);
-      }
-      if (circleHolds(sites[k[0]].at, sites[k[1]].at, sites[k[2]].at, sites[other.corner[back]].at,
-                      ignored)) {
-        return "the circle of directions " + name(k[0]) + " " + name(k[1]) + " " + name(k[2]) + " holds " +
-               name(other.corner[back]);
-      }
-    }
-  }
-  if (faces + 4 != 2 * corners) return "the triangulation is not closed";
-  return std::nullopt;
-}
-
 }  // namespace rsphere

@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "sphere/predicates.h"
@@ -84,11 +82,6 @@ struct Delaunay {
       i = kAfter[across % 4];
     } while (t != first);
   }
-
-  // Describes a defect of the triangulation, if any: neighbours that do not refer to each other, a
-  // circumcircle that contains a neighbour's corner, or a surface that is not closed. names[i]: the number of
-  // site i in the message.
-  std::optional<std::string> fault(std::span<const std::uint32_t> names) const;
 
   static constexpr int kAfter[3] = {1, 2, 0}, kBefore[3] = {2, 0, 1};
 

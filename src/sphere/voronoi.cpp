@@ -319,18 +319,4 @@ VoronoiCells voronoiCells(const VoronoiWorkspace& workspace) {
   return cells;
 }
 
-std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace) {
-  const auto& data = *workspace.data_;
-  const auto& [delaunay, order, few] = data.triangulation;
-  if (order.empty()) return std::nullopt;
-  const double sum = std::accumulate(data.solidAngles.begin(), data.solidAngles.end(), 0.0);
-  if (!(std::abs(sum - kSphere) <= 1e-12))
-    return "the solid angles sum to 4 pi + " + std::to_string(sum - kSphere);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (!(data.solidAngles[i] >= 0)) return "direction " + std::to_string(i) + " has a negative solid angle";
-  }
-  if (data.triangulation.isFlat()) return std::nullopt;
-  return delaunay.fault(order);
-}
-
 }  // namespace rsphere

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,7 +66,6 @@ class VoronoiWorkspace {
                                                  VoronoiWorkspace&);
   friend std::span<const double> cellSolidAngles(std::span<const V3d>, VoronoiWorkspace&);
   friend struct VoronoiCells voronoiCells(const VoronoiWorkspace&);
-  friend std::optional<std::string> voronoiFault(const VoronoiWorkspace&);
   struct Data;
   std::unique_ptr<Data> data_;
 };
@@ -96,11 +94,5 @@ struct VoronoiCells {
 
 // The cells of the last query of the workspace.
 VoronoiCells voronoiCells(const VoronoiWorkspace& workspace);
-
-// Verifies the last query. No triangle's circumcircle may contain a corner of its neighbours, which on a
-// closed surface implies that it contains no direction at all. The surface must be closed. Areas must not be
-// negative, and sum to 4 pi within 1e-12. Returns a description of the defect, or nothing. Takes about as
-// long as building the triangulation.
-std::optional<std::string> voronoiFault(const VoronoiWorkspace& workspace);
 
 }  // namespace rsphere

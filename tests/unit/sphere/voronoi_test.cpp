@@ -11,7 +11,6 @@
 #include "allocations.h"
 #include "reference.h"
 #include "sets.h"
-#include "sphere/delaunay.h"
 #include "sphere/directions.h"
 
 namespace rsphere {
@@ -44,7 +43,6 @@ TEST_P(HardSet, CellsMatchQuadPrecision) {
   VoronoiWorkspace workspace;
   const auto areas = cellSolidAngles(directions, workspace);
   EXPECT_LE(std::abs(sumError(areas)), 1e-13);
-  EXPECT_EQ(voronoiFault(workspace), std::nullopt);
   expectReference(directions, areas, 1 + directions.size() / 200);  // a cell takes milliseconds
 }
 
@@ -55,7 +53,6 @@ TEST_P(HardSet, KeptBaseGivesTheSame) {
   for (const std::size_t kept : {directions.size() / 3, directions.size() - 1}) {
     const BaseTriangulation base(std::span<const V3d>(directions).first(kept));
     const auto areas = cellSolidAngles(base, std::span<const V3d>(directions).subspan(kept), workspace);
-    EXPECT_EQ(voronoiFault(workspace), std::nullopt);
     EXPECT_LE(std::abs(sumError(areas)), 1e-13);
     for (std::size_t i = 0; i < areas.size(); ++i) ASSERT_NEAR(areas[i], whole[i], 2e-13 * whole[i]) << i;
   }
@@ -86,7 +83,6 @@ TEST(Voronoi, RandomDegenerateSetsMatchQuadPrecision) {
     SCOPED_TRACE(seed);
     const auto directions = degenerateSet(seed);
     const auto areas = cellSolidAngles(directions, workspace);
-    EXPECT_EQ(voronoiFault(workspace), std::nullopt);
     EXPECT_LE(std::abs(sumError(areas)), 1e-13);
     expectReference(directions, areas);
     all.filter += workspace.counts().filter;
@@ -106,7 +102,6 @@ TEST(Voronoi, AMillionRandomDirections) {
   VoronoiWorkspace workspace;
   const auto areas = cellSolidAngles(directions, workspace);
   EXPECT_LE(std::abs(sumError(areas)), 1e-12);
-  EXPECT_EQ(voronoiFault(workspace), std::nullopt);
   expectReference(directions, areas, 499);
 }
 
@@ -215,7 +210,6 @@ TEST(Voronoi, NearlyEqualDirectionsOfDifferentLengthShareACell) {
   directions.push_back(V3d(1 - 0x1p-53, 0, 0));
   VoronoiWorkspace workspace;
   const auto areas = cellSolidAngles(directions, workspace);
-  EXPECT_EQ(voronoiFault(workspace), std::nullopt);
   EXPECT_EQ(areas[50], areas[51]);
   EXPECT_EQ(areas[50], areas[52]);
   EXPECT_LE(std::abs(sumError(areas)), 1e-13);
@@ -232,7 +226,6 @@ TEST(Voronoi, CrowdsWithinAnUlpAreAnsweredInTime) {
   }
   VoronoiWorkspace workspace;
   const auto areas = cellSolidAngles(directions, workspace);
-  EXPECT_EQ(voronoiFault(workspace), std::nullopt);
   EXPECT_LE(std::abs(sumError(areas)), 1e-13);
 }
 
@@ -253,8 +246,7 @@ TEST(Voronoi, RefusesWhatIsNotADirection) {
     }
   }
   // The workspace is as good as before.
-  cellSolidAngles(base, std::vector{V3d(1, 0, 0)}, workspace);
-  EXPECT_EQ(voronoiFault(workspace), std::nullopt);
+  EXPECT_LE(std::abs(sumError(cellSolidAngles(base, std::vector{V3d(1, 0, 0)}, workspace))), 1e-13);
   EXPECT_NO_THROW(cellSolidAngles(std::vector{V3d(1, 0, 0), V3d(0, 1 - 4e-15, 0)}));
 }
 
@@ -280,23 +272,6 @@ TEST(Voronoi, QueriesDoNotAllocateOnceWarm) {
   EXPECT_EQ(allocations(), before);
   const std::vector<V3d> copy(first);
   EXPECT_EQ(allocations(), before + 1) << "the counter does not count";
-}
-
-TEST(Voronoi, FaultNoticesAFlippedEdge) {
-  const auto directions = randomDirections(50, 16);
-  Delaunay delaunay;
-  const auto site = [&](int i) { return Site{directions[i], lengthExcess(directions[i]) / 2}; };
-  delaunay.start({site(0), site(1), site(2), site(3)});
-  for (int i = 4; i < 50; ++i) delaunay.insert(site(i));
-  std::vector<std::uint32_t> names(50);
-  std::iota(names.begin(), names.end(), 0);
-  EXPECT_EQ(delaunay.fault(names), std::nullopt);
-  Delaunay torn = delaunay;
-  std::swap(torn.triangles[7].next[0], torn.triangles[7].next[1]);
-  EXPECT_NE(torn.fault(names), std::nullopt);
-  Delaunay moved = delaunay;
-  moved.sites[20].at = -moved.sites[20].at;
-  EXPECT_NE(moved.fault(names), std::nullopt);
 }
 
 }  // namespace
