@@ -414,6 +414,12 @@ std::optional<std::string> fileBeside(const Description& description, Place plac
   return path;
 }
 
+std::optional<std::string> findNamedFile(const Description& description, Place place, std::string_view name,
+                                         const FileAccess& access) {
+  auto path = findFile(name, libraryPath(), {}, access);
+  return path ? path : fileBeside(description, place, name, access);
+}
+
 std::string nameOfFile(const Description& description, Place place, std::string_view name,
                        const FileAccess& access) {
   if (findFile(name, libraryPath(), {}, access)) return std::string(name);

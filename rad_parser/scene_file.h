@@ -65,8 +65,10 @@ Description readSceneText(std::string_view text, std::string_view name, const Re
 std::optional<std::string> fileBeside(const Description& description, Place place, std::string_view name,
                                       const FileAccess& access);
 
-// The name by which findFile() finds a file that a primitive names: the given one, unless the file is found
-// only beside the scene file.
+// The path of a file that a primitive names: found along RAYPATH, or else beside the scene file.
+std::optional<std::string> findNamedFile(const Description& description, Place place, std::string_view name,
+                                         const FileAccess& access);
+// The name by which findFile() finds it: the given one, unless it is found only beside the scene file.
 std::string nameOfFile(const Description& description, Place place, std::string_view name,
                        const FileAccess& access);
 

@@ -114,14 +114,9 @@ class SurfaceFunctions::Maker {
                      given - rest.size() + coordinates, exception, given));
   }
 
-  // named: the name by which a file is found that this modifier names. find: its path, for such a name.
-  // contentsOf: the text of the file at a path.
-  std::string named(std::string_view name) const {
-    const rad::Description& d = scene_.description;
-    return rad::nameOfFile(d, d.primitives[modifier_.primitive].place, name, scene_.files);
-  }
+  // find: the path of a file that this modifier names. contentsOf: the text of the file at a path.
   std::string find(std::string_view name, std::string_view kind) const {
-    const auto path = rad::findFile(name, rad::libraryPath(), {}, scene_.files);
+    const auto path = rad::findNamedFile(scene_.description, place(), name, scene_.files);
     if (isFolder(path.value_or(std::string(name)), scene_.files))
       fail(folderProblem(name, kind), rad::Status::system);
     if (!path)
@@ -140,11 +135,9 @@ class SurfaceFunctions::Maker {
   template <class T, class Read>
   std::shared_ptr<const T> shared(Cache<T>& cache, std::string_view name, std::string_view kind,
                                   const Read& make) const {
-    const std::string file = named(name);
-    const auto found = cache.find(file);
-    if (found != cache.end()) return found->second;
-    auto thing = std::make_shared<const T>(make(find(file, kind)));
-    cache.emplace(file, thing);
+    const std::string path = find(name, kind);
+    std::shared_ptr<const T>& thing = cache[path];
+    if (!thing) thing = std::make_shared<const T>(make(path));
     return thing;
   }
 
@@ -171,11 +164,15 @@ class SurfaceFunctions::Maker {
                   [&](const std::string& path) { return placed([&] { return T::read(path); }); });
   }
 
-  // The request refers to the name of the function file until the next one.
+  rad::Place place() const { return scene_.description.primitives[modifier_.primitive].place; }
+
+  // The request refers to the name of the function file, which is looked up once: a modifier has one.
   calc::Request request(std::string_view file) const {
+    if (functionFile_.empty())
+      functionFile_ = file == "." ? "." : rad::nameOfFile(scene_.description, place(), file, scene_.files);
     calc::Request r;
     r.place = scene_.place(modifier_.primitive);
-    r.file = functionFile_ = file == "." ? std::string(file) : named(file);
+    r.file = functionFile_;
     r.available = available_;
     r.reals = arguments_.reals();
     return r;
@@ -342,7 +339,7 @@ class SurfaceFunctions::Maker {
     if (!read.words.empty())
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
     else
-      lines = linesOf(contentsOf(find(named(read.file), "text"), "text"));
+      lines = linesOf(contentsOf(find(read.file, "text"), "text"));
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
     std::copy(read.background.begin(), read.background.end(), background.begin());
