@@ -16,6 +16,7 @@
 namespace rsphere {
 
 using Imath::V2d;
+using OfPatches = tuning::CoarseSolution;
 
 namespace {
 
@@ -41,8 +42,7 @@ constexpr unsigned kLogPatchBuckets = 18, kLogDivisionBuckets = 19;
 
 // Whether a site lies on a ball or a cone, and all surfaces around it are near compared with the radius.
 bool isInNarrowShell(const Surroundings& seen, const SurfaceChart& chart) {
-  return chart.isCurved() && seen.covered >= 1 &&
-         seen.rootMeanSquare < tuning::CoarseSolution::kEnclosed * chart.extent();
+  return chart.isCurved() && seen.covered >= 1 && seen.rootMeanSquare < OfPatches::kEnclosed * chart.extent();
 }
 
 // Publishes an object that a thread has made, unless another thread was first. Returns whether it was kept.
@@ -87,7 +87,7 @@ void fitLinear(const std::vector<V2f>& at, Sites& sites) {
     product += d.x * d.y / count;
   }
   const float determinant = squares.x * squares.y - product * product;
-  if (!(determinant > tuning::CoarseSolution::kLeastDeterminant)) return;
+  if (!(determinant > OfPatches::kLeastDeterminant)) return;
   for (size_t i = 0; i < at.size(); ++i) {
     const V2f d = at[i] - sites.middle;
     sites.all[i].weight = V2f(squares.y * d.x - product * d.y, squares.x * d.y - product * d.x) / determinant;
@@ -123,8 +123,8 @@ struct Patch {
 struct CoarseSolution::Frame {
   bool usable = false;  // it has a gather site
   GatherSite site;
-  double reach = 0;  // harmonic mean distance of its surroundings
-  double share = 0;  // of the light on the room's other surfaces: see tuning::CoarseSolution::kUsualShare
+  double reach = 0;         // harmonic mean distance of its surroundings
+  double share = 0;         // of the light on the room's other surfaces: tuning.h: kUsualShare
   bool isEnclosed = false;  // isInNarrowShell()
   uint64_t seed = 0;
   std::array<std::atomic<Patch*>, kMostSolutions> patches{};  // by solution; null before the first use
@@ -158,9 +158,8 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
       effort_(effortFor(options, room > 0)),
       rotation_(options.rotation),
       bounces_(std::clamp(options.bounces, 1, kMostComputed)),
-      coarserLinks_(std::max(options.coarserLinks, room > 0 || options.patchesAtFirst
-                                                       ? 0
-                                                       : tuning::CoarseSolution::kCoarserLinksByLamps)),
+      coarserLinks_(std::max(options.coarserLinks,
+                             room > 0 || options.patchesAtFirst ? 0 : OfPatches::kCoarserLinksByLamps)),
       hasBands_(options.spectral || !scene.contributors.empty()),
       ambient_(V3d(V3f(options.ambientValue.color.rgb()))),  // single precision, like all light stored here
       divisions_(std::make_unique<InsertOnce<CellKey, Division>>(kLogDivisionBuckets)),
@@ -171,40 +170,35 @@ CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
   const double rays = options.rays / options.solutions;
-  const double accuracy = std::max(options.accuracy / tuning::CoarseSolution::kUsualAccuracy,
-                                   1 / tuning::CoarseSolution::kMoreRays);
+  const double accuracy = std::max(options.accuracy / OfPatches::kUsualAccuracy, 1 / OfPatches::kMoreRays);
   const double finer = std::min(accuracy, std::sqrt(accuracy));
   const bool first = options.patchesAtFirst;
-  const double far = first ? tuning::CoarseSolution::kFarPatchAtFirst : tuning::CoarseSolution::kFarPatch;
-  const double near = first ? tuning::CoarseSolution::kNearAtFirst : tuning::CoarseSolution::kNear;
-  const double share =
-      first ? tuning::CoarseSolution::kUsualShareAtFirst : tuning::CoarseSolution::kUsualShare;
-  const double fewer = first || options.solutions > 1 ? 1 : tuning::CoarseSolution::kFewerByLamps;
+  const double far = first ? OfPatches::kFarPatchAtFirst : OfPatches::kFarPatch;
+  const double near = first ? OfPatches::kNearAtFirst : OfPatches::kNear;
+  const double share = first ? OfPatches::kUsualShareAtFirst : OfPatches::kUsualShare;
+  const double fewer = first || options.solutions > 1 ? 1 : OfPatches::kFewerByLamps;
   if (!daylit)
-    return {tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kSpacing * finer,
-            tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kLeastPatch,
-            tuning::CoarseSolution::kCoarserByLamps * far, near, fewer * tuning::CoarseSolution::kRays * rays,
-            first ? 1. : 0., 1,
-            first ? tuning::CoarseSolution::kCoarserByLamps * tuning::CoarseSolution::kCoarserByLamps *
-                        tuning::CoarseSolution::kLeastRays
-                  : fewer * tuning::CoarseSolution::kLeastRays,
+    return {OfPatches::kCoarserByLamps * OfPatches::kSpacing * finer,
+            OfPatches::kCoarserByLamps * OfPatches::kLeastPatch, OfPatches::kCoarserByLamps * far, near,
+            fewer * OfPatches::kRays * rays, first ? 1. : 0., 1,
+            first ? OfPatches::kCoarserByLamps * OfPatches::kCoarserByLamps * OfPatches::kLeastRays
+                  : fewer * OfPatches::kLeastRays,
             rays, share, 0,
             // Several solutions have few rays each. By noisy slopes of links, light can grow from bounce to
             // bounce. Gathers need slopes: without them, sensors below a cove are 6 to 8% too bright.
-            options.solutions > 1 ? tuning::CoarseSolution::kFewestForSlopes : 0};
-  return {tuning::CoarseSolution::kSpacing * finer,
-          tuning::CoarseSolution::kLeastPatch,
+            options.solutions > 1 ? OfPatches::kFewestForSlopes : 0};
+  return {OfPatches::kSpacing * finer,
+          OfPatches::kLeastPatch,
           far,
           near,
-          tuning::CoarseSolution::kRays * rays * std::max(1., 1 / accuracy),
+          OfPatches::kRays * rays * std::max(1., 1 / accuracy),
           0,
-          tuning::CoarseSolution::kMoreRays,
-          options.solutions > 1 ? tuning::CoarseSolution::kLeastRaysOfSolutions
-                                : tuning::CoarseSolution::kLeastRays,
+          OfPatches::kMoreRays,
+          options.solutions > 1 ? OfPatches::kLeastRaysOfSolutions : OfPatches::kLeastRays,
           rays,
           share,
-          tuning::CoarseSolution::kFewestForSlopes,
-          tuning::CoarseSolution::kFewestForSlopes};
+          OfPatches::kFewestForSlopes,
+          OfPatches::kFewestForSlopes};
 }
 
 CoarseSolution::Frame& CoarseSolution::frameOf(const SurfaceChart& chart, const CellKey& key,
@@ -238,15 +232,14 @@ Patch& CoarseSolution::patchOf(Frame& frame, int solution) const {
 
 // The level of the smallest patches of a surface. leastSide: their side relative to the surface's extent.
 int CoarseSolution::finestLevel(const SurfaceChart& chart, double leastSide) const {
-  return grid_.levelOf(leastSide *
-                       std::min(chart.extent(), tuning::CoarseSolution::kWidestExtent * grid_.size));
+  return grid_.levelOf(leastSide * std::min(chart.extent(), OfPatches::kWidestExtent * grid_.size));
 }
 
 // Whether an entire side of a surface lies in a narrow gap, as between nested shells. A surface that another
 // object approaches only in places is not enclosed.
 bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
   return enclosed_->findOrAdd(chart.cell(grid_, 0, 0, 0), [&](bool& enclosed) {
-    for (size_t i = 0; i < tuning::CoarseSolution::kEnclosedPlaces; ++i) {
+    for (size_t i = 0; i < OfPatches::kEnclosedPlaces; ++i) {
       const auto site = chart.siteWithin(grid_, evenly(i, .5, .5));
       if (!site) continue;
       enclosed = isInNarrowShell(rays.surroundings(*site), chart);
@@ -260,8 +253,7 @@ bool CoarseSolution::isEnclosed(const SurfaceChart& chart, FieldRays& rays) {
 const CoarseSolution::Division& CoarseSolution::divisionAt(const SurfaceChart& chart, int finest,
                                                            FieldRays& rays) {
   const double open = tuning::Fields::kOpen * grid_.size;
-  const int finestEnclosed =
-      std::min(finest, finestLevel(chart, tuning::CoarseSolution::kLeastPatchEnclosed));
+  const int finestEnclosed = std::min(finest, finestLevel(chart, OfPatches::kLeastPatchEnclosed));
   const CellKey key = chart.cellAt(grid_, finest, chart.u(), chart.v());
   return divisions_->findOrAdd(key, [&](Division& found) {
     const double u = (static_cast<double>(key.i) + .5) * chart.stepU(grid_, finest),
@@ -297,7 +289,7 @@ void CoarseSolution::spread(Patch& patch, const Frame& frame, const SurfaceChart
   Random random(mixBits(patch.seed ^ rotation_));
   // The patch is divided into squares, with one place in each. Places in opposite squares are symmetric about
   // the middle of the patch, so that their mean is exact where light varies linearly.
-  const int across = patch.rays < tuning::CoarseSolution::kManyRays ? 2 : 4;
+  const int across = patch.rays < OfPatches::kManyRays ? 2 : 4;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across / 2; ++j) {
       const V2d place = V2d(i + random.uniform(), j + random.uniform()) / across;
@@ -315,16 +307,16 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < tuning::CoarseSolution::kHalf * std::max(division.side, suffices)) return {};
+  if (chart->extent() < OfPatches::kHalf * std::max(division.side, suffices)) return {};
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < tuning::CoarseSolution::kHalf * grid_.side(level)) return {};
+  if (place.distance < OfPatches::kHalf * grid_.side(level)) return {};
   level = std::max(
       level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
   // Light varies across closely spaced strips such as slats, because neighbouring strips hide a part of each.
   if (chart->shorterSide() < grid_.side(level) && division.side < chart->shorterSide())
-    chart->divideAcross(tuning::CoarseSolution::kPartsAcross);
+    chart->divideAcross(OfPatches::kPartsAcross);
   const V3d above = place.point + grid_.lift * place.normal;
   const int most = std::min(level + tuning::Fields::kFinerWhereHidden,
                             division.isEnclosed ? std::max(level, division.finest) : CellGrid::kLevels);
@@ -351,7 +343,7 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
 // more.
 double CoarseSolution::raysOf(const Frame& frame) const {
   const double part = std::clamp(frame.share / effort_.usualShare, effort_.fewer, effort_.more);
-  return std::clamp(effort_.usual * part, effort_.least, tuning::CoarseSolution::kMostRays);
+  return std::clamp(effort_.usual * part, effort_.least, OfPatches::kMostRays);
 }
 
 const PatchLinks& CoarseSolution::linksOf(Patch& patch, FieldRays& rays) {

@@ -23,9 +23,8 @@ struct DiffuseGlances {
   // below LightVertices::kWidth hardly increase the number of joins.
   RSPHERE_TUNED(DiffuseGlances, double, kJoinsPerDirection, 8);
   // The number of pools of light vertices with -Sa and -Su. Sets of directions use them in turn, so that
-  // averaging sets also averages the error due to the vertices. It is also the number of sets after which -Sa
-  // stops at a dark point: each pool has then been used once. In a closed metal column, these sets take 7 s
-  // (-ab 6).
+  // averaging sets also averages the error due to the vertices. Also the number of sets after which -Sa stops
+  // at a dark point.
   static constexpr size_t kPools = 8;
   // The number of light paths, as a multiple of the number of base directions (-Sn). They are traced once,
   // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
@@ -34,9 +33,8 @@ struct DiffuseGlances {
   // The least number of light paths in a batch: if single paths vary as much as their mean, that of a batch
   // is known within 3%.
   static constexpr size_t kLeastPaths = 1024;
-  // kPathsPerDirection by daylight through openings, where a path costs twice as much: half of it, so that
-  // light paths by lamps and by daylight take equal times. With a quarter, the error is 10 to 40% larger, and
-  // the program starts in .14 instead of .2 s.
+  // kPathsPerDirection by daylight through openings, where a path costs twice as much. With a quarter, the
+  // error is 10 to 40% larger, and the program starts in .14 instead of .2 s.
   static inline const double kDaylitPaths = kPathsPerDirection / 2;
   // Assumed mean radiance of the light that glances miss, as a fraction of the radiance that they find. It is
   // the reference for the variance of targets. With .3 or 1, single answers are off by 6% where brushed steel

@@ -12,14 +12,14 @@ namespace rsphere::tuning {
 struct LightVertices {
   // Distance at which rays towards near surfaces estimate half of the light between diffuse surfaces
   // (NearLight::share()). Joins of a point with light paths hardly increase in number below it
-  // (DiffuseGlances). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no
-  // effect beyond noise.
+  // (DiffuseGlances). Measured: with .05, the error around the goal is 40% larger; .2 and .3 have no effect
+  // beyond noise.
   //
-  // The constant has a second use: the distance at which rays leave half of their light to joins with the eye
+  // Also the distance at which rays leave half of their light to joins with the eye
   // (NearLight::closeShare()), relative to the smaller of the distance from the eye and the mean distance.
-  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of 2
-  // mm between a sheet of paper and the goal. Measured for this use: with .01, the error around the goal is
-  // 10% larger, in a tenth less time; .4 has no effect beyond noise.
+  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of
+  // 2 mm between a sheet of paper and the goal. Measured: with .01, the error is 10% larger, in a tenth less
+  // time.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
   // Light paths that measure the mean distance from the sources to the first surfaces, and directions that
   // estimate the power of a source with a pattern or a cone. If single values vary as much as their mean,
@@ -36,13 +36,9 @@ struct LightVertices {
 // The light of vertices at a place (vertex_light.h).
 struct VertexLight {
   // kClusters: number of clusters of vertices. kCandidates: number of vertices that are sampled at each
-  // place, by estimates of the clusters' light. Both together take as long as a shadow ray. Measured:
-  //   clusters   variance of this light   time of the whole estimate
-  //   128         1                       1
-  //   256         .75                     1.5
-  //   512         .5                      2.5
-  // A light path from a source with a pattern or a cone also has kCandidates candidates, one of which is
-  // followed.
+  // place, by estimates of the clusters' light. Both together take as long as a shadow ray. Measured: 256 and
+  // 512 clusters have .75 and .5 of the variance of this light in 1.5 and 2.5 times the whole time. A light
+  // path from a source with a pattern or a cone also has kCandidates candidates, one of which is followed.
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kClusters, 128);
   RSPHERE_TUNED_ROOM(VertexLight, size_t, kCandidates, 8);
   // One more candidate is sampled from the unbounded vertices next to a place (near_vertices.h), which are

@@ -15,19 +15,19 @@
 namespace rsphere {
 namespace {
 
-// Two points on a ball may share light if each is near the plane of the other, within
-// tuning::Pictures::kNear. The cosine of the angle between their normals is then at least this. Normals of
-// surfaces that meet in an edge differ more.
-const float kSameNormal = 1 - 2 * tuning::Pictures::kNear * tuning::Pictures::kNear;
+using OfPictures = tuning::Pictures;
 
-const Smoothing kOfIndirect{tuning::Pictures::kIndirectPasses, tuning::Pictures::kFinePasses,
-                            tuning::Pictures::kSameLight, kSameNormal, tuning::Pictures::kNear};
-const Smoothing kOfGloss{tuning::Pictures::kFinePasses, 0, 0, tuning::Pictures::kSameGlossNormal,
-                         tuning::Pictures::kNear};
+// Two points on a ball may share light if each is near the plane of the other, within
+// OfPictures::kNear. The cosine of the angle between their normals is then at least this. Normals of
+// surfaces that meet in an edge differ more.
+const float kSameNormal = 1 - 2 * OfPictures::kNear * OfPictures::kNear;
+
+const Smoothing kOfIndirect{OfPictures::kIndirectPasses, OfPictures::kFinePasses, OfPictures::kSameLight,
+                            kSameNormal, OfPictures::kNear};
+const Smoothing kOfGloss{OfPictures::kFinePasses, 0, 0, OfPictures::kSameGlossNormal, OfPictures::kNear};
 // The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
 // they differ visibly from their neighbors.
-const Smoothing kOfDirect{1, tuning::Pictures::kFinePasses, tuning::Pictures::kSameLight, kSameNormal,
-                          tuning::Pictures::kNear};
+const Smoothing kOfDirect{1, OfPictures::kFinePasses, OfPictures::kSameLight, kSameNormal, OfPictures::kNear};
 
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
@@ -37,13 +37,13 @@ class PictureStreams {
   explicit PictureStreams(uint64_t seed) : seed_(seed) {}
   uint64_t smallSources() const { return mixBits(seed_ + 1); }
   uint64_t middle(size_t pixel) const { return mixBits(seed_ + 16 + pixel); }
-  // beside: index in tuning::Pictures::kBeside.
+  // beside: index in OfPictures::kBeside.
   uint64_t aside(size_t pixel, size_t beside) const { return mixBits(middle(pixel) + 1 + beside); }
-  // repeat: below tuning::Pictures::kRepeats.
+  // repeat: below OfPictures::kRepeats.
   uint64_t direct(size_t pixel, int repeat) const {
     return mixBits(middle(pixel) + 128 + static_cast<uint64_t>(repeat));
   }
-  // around: index in tuning::Pictures::kAround.
+  // around: index in OfPictures::kAround.
   uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
 
  private:
@@ -69,9 +69,8 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
   for (SeenSources::Image& image : small.images) {
     const std::optional<size_t> pixel = map.pixelOf(image.region.sample(.5, .5));
     const double there = pixel ? map.solidAngle(*pixel) : 0;
-    const double pixels = there > 0 ? image.solidAngle / there : tuning::Pictures::kSmallest;
-    image.rays =
-        pixels < tuning::Pictures::kSmallest ? tuning::Pictures::kSmallest * std::max(1., pixels) : 0;
+    const double pixels = there > 0 ? image.solidAngle / there : OfPictures::kSmallest;
+    image.rays = pixels < OfPictures::kSmallest ? OfPictures::kSmallest * std::max(1., pixels) : 0;
   }
   small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
                                     [](const auto& image) { return image.rays == 0; }),
@@ -159,7 +158,7 @@ class RaysOfPixel {
   }
   bool differ() const {
     const V3d range = brightest_ - darkest_;
-    return std::max({range.x, range.y, range.z}) > tuning::Pictures::kVisible;
+    return std::max({range.x, range.y, range.z}) > OfPictures::kVisible;
   }
   // Empty without rays.
   std::optional<V3d> mean() const {
@@ -195,8 +194,7 @@ class Painter {
         tracer_(point, transport),
         small_(smallSources(tracer_.paths(), map, sources, streams_.smallSources())),
         sampling_(transport.prepared().options().sampling),
-        sharing_(isLitByLamps(transport.prepared()) ? tuning::Pictures::kSharingByLamps
-                                                    : tuning::Pictures::kSharing) {}
+        sharing_(isLitByLamps(transport.prepared()) ? OfPictures::kSharingByLamps : OfPictures::kSharing) {}
 
   Raster draw(bool forScreen, double white);
 
@@ -245,8 +243,8 @@ std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts
   const size_t pixel = at(column, row);
   if (!map_.direction(column + .5, row + .5)) return std::nullopt;
   auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
-  for (size_t i = 0; !sample && i < tuning::Pictures::kBeside.size(); ++i)
-    sample = look(column + .5 + tuning::Pictures::kBeside[i][0], row + .5 + tuning::Pictures::kBeside[i][1],
+  for (size_t i = 0; !sample && i < OfPictures::kBeside.size(); ++i)
+    sample = look(column + .5 + OfPictures::kBeside[i][0], row + .5 + OfPictures::kBeside[i][1],
                   streams_.aside(pixel, i), parts);
   return sample;
 }
@@ -261,8 +259,8 @@ bool Painter::gathers(int column, int row) const {
 Pixels Painter::tracePixels() {
   Pixels pixels(map_);
   int traced = 0;
-  for (int sweep = 0; sweep < tuning::Pictures::kSweeps; ++sweep)
-    for (int row = sweep; row < map_.height(); row += tuning::Pictures::kSweeps) {
+  for (int sweep = 0; sweep < OfPictures::kSweeps; ++sweep)
+    for (int row = sweep; row < map_.height(); row += OfPictures::kSweeps) {
       report(kTracingShare * traced++ / map_.height());
       for (int column = 0; column < map_.width(); ++column) {
         const bool all = gathers(column, row);
@@ -299,8 +297,7 @@ std::vector<bool> noisyShadows(const Pixels& pixels) {
       return;
     const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
                      b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
-    if (apart.length() > tuning::Pictures::kSameLight * (a + b).length() / 2)
-      marked[here] = marked[there] = true;
+    if (apart.length() > OfPictures::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
   };
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
@@ -324,7 +321,7 @@ void Painter::repeatDirect(Pixels& pixels) {
       if (!marked[pixel]) continue;
       V3d sum(pixels.middles[pixel].direct);
       int count = 1;
-      for (int repeat = 0; repeat < tuning::Pictures::kRepeats; ++repeat) {
+      for (int repeat = 0; repeat < OfPictures::kRepeats; ++repeat) {
         const auto sample =
             look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
         if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
@@ -341,7 +338,7 @@ std::vector<bool> Painter::uneven(const Raster& raster, const ToneCurve& curve) 
   const auto differ = [&](size_t a, size_t b) {
     const V3d of = curve.shown(valueAt(raster, a)), other = curve.shown(valueAt(raster, b));
     for (int c = 0; c < 3; ++c)
-      if (std::abs(sRgb(of[c]) - sRgb(other[c])) > tuning::Pictures::kVisible) return true;
+      if (std::abs(sRgb(of[c]) - sRgb(other[c])) > OfPictures::kVisible) return true;
     return false;
   };
   for (int row = 0; row < map_.height(); ++row)
@@ -379,8 +376,7 @@ std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sa
 // Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels. Empty
 // outside the rim, and where the ray hits a small source.
 std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
-  const double x = column + .5 + tuning::Pictures::kAround[place][0],
-               y = row + .5 + tuning::Pictures::kAround[place][1];
+  const double x = column + .5 + OfPictures::kAround[place][0], y = row + .5 + OfPictures::kAround[place][1];
   const uint64_t seed = streams_.around(at(column, row), place);
   auto sample = look(x, y, seed, PixelParts::restAlone);
   if (sample && sample->seen.material != kNone) {
@@ -393,8 +389,8 @@ std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, si
 V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
   const size_t pixel = at(column, row);
   if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
-  for (size_t place = 0; place < tuning::Pictures::kAround.size(); ++place) {
-    if (place == tuning::Pictures::kCorners && !rays.differ()) break;
+  for (size_t place = 0; place < OfPictures::kAround.size(); ++place) {
+    if (place == OfPictures::kCorners && !rays.differ()) break;
     if (const auto value = around(pixels, column, row, place)) rays.add(*value);
   }
   return rays.mean().value_or(pixels.value(pixel));

@@ -17,12 +17,10 @@ struct Pictures {
   // this value, the median is shown as .504 in sRGB instead of .5.
   static constexpr double kLeastWhite = 4;
   // Light sources that cover fewer pixels than this are sampled separately: derived. A disc of 16 pixels
-  // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%. For a lamp of
-  // 1.4 pixels it would be 38%; with separate samples it is .1%.
-  //
-  // The constant is also the number of samples of such a source per covered pixel, and the minimum per
-  // source: measured. With 4 per pixel, lamps of 4 to 16 pixels lose 3 to 9% of their light in the picture,
-  // with 16 they lose 1 to 3.5%. Insensitive.
+  // covers the middles of 14 to 21 pixels, which gives its light a standard deviation of 6%; of 1.4 pixels,
+  // 38%, with separate samples .1%. Also the number of samples of such a source per covered pixel, and the
+  // minimum per source: measured. With 4, lamps of 4 to 16 pixels lose 3 to 9% of their light, with 16 1 to
+  // 3.5%. Insensitive.
   static constexpr double kSmallest = 16;
   // Offsets from the middle of a pixel (in pixels) of the rays that look for the background behind a small
   // source: chosen by experiment.

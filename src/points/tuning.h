@@ -23,30 +23,23 @@ struct ErrorEstimate {
   static constexpr double kFewestAround = 4;
   // Factor like kEvenSet for directions to the parts of a light source: chosen by experiment. Differences
   // between successive parts overestimate the effect of an edge, because it lies between two parts more often
-  // than it crosses one. Where all variance is due to the light of one source, the stated error is too small
-  // (40 rotations each):
-  //   stated / actual standard deviation        .5 (used)    1
-  //   luminous ceiling behind 36 balls          .67 to .88   .94 to 1.24
-  //   lamp of .1 m, half hidden                 .69          .98
-  //   ceiling with a pattern of stripes         .70 to .76   .99 to 1.08
-  // Insensitive.
+  // than it crosses one. Where all variance is due to one source (half hidden, or with stripes), the stated
+  // error is .67 to .88 of the actual one, with 1 .94 to 1.24. Insensitive.
   static constexpr double kEvenParts = .5;
   // The factor like kEvenSet for n dynamic directions to several targets, parts of one image, is 1 / (1 +
-  // n^1/2 / kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen by
-  // experiment. n is the effective number of directions that cause the variance. With the number of all
-  // directions, errors were understated beside a chrome ball, where 1 to 5 of 3400 directions find twice
-  // mirrored lamps: the actual deviation was 1.6 times the stated one, and 2% of the answers were off by more
-  // than six stated errors. With the effective number, the ratio is .9, and no answer is. Insensitive.
+  // n^1/2 / kEvenRun). The root is derived: an edge crosses about n^1/2 of the n cells. kEvenRun is chosen
+  // by experiment. n is the effective number of directions that cause the variance: with that of all, errors
+  // were 1.6 times the stated ones beside a chrome ball, where 1 to 5 of 3400 directions find twice mirrored
+  // lamps; with the effective number, .9. Insensitive.
   static constexpr double kEvenRun = 8;
   // Assumed size of an obstacle that no direction has hit, as a fraction of the solid angle that one more
   // direction in a target would represent: derived. If n directions miss an obstacle, the expected fraction
   // that it covers is 1/2 / (n + 1) (Bayes' theorem, with Jeffreys' prior for a probability).
   static constexpr double kUnseen = .5;
   // The stated variance due to light vertices is at least this number of standard deviations of the spread of
-  // their batches: chosen by experiment. The stated variance is the spread minus the part due to choosing
-  // vertices at random; if the two are nearly equal, the difference may be 0 by chance. Where a tiny lamp
-  // lights a white room (-ab 0), 10% of the answers were off by more than six stated errors without the
-  // minimum, and none of 600 with it.
+  // their batches: chosen by experiment. It is the spread minus the part due to choosing vertices at random,
+  // which may be 0 by chance: where a tiny lamp lights a white room (-ab 0), 10% of the answers were off by
+  // more than six stated errors without the minimum, and none of 600 with it.
   static constexpr double kLeastShared = .5;
 };
 

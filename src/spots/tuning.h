@@ -13,21 +13,14 @@ struct BrightSpots {
   static inline const double kParticles = 128. * Caps::kAimed;
   // A spot reflects at least this many times as much light per area as the mean of all surfaces. Chosen by
   // experiment. For light that enters through openings, the threshold is half of this, because few rays of a
-  // patch of the coarse solution hit these spots. Measured in a sunlit classroom:
-  //   threshold   noise at sensors
-  //   6           1.55%
-  //   3           1.16%
-  //   2           1.27%
+  // patch of the coarse solution hit these spots. Measured in a sunlit classroom: thresholds of 6, 3 and 2
+  // have noise of 1.55, 1.16 and 1.27% at sensors.
   //
-  // Aiming makes a path 25% more expensive, and must reduce the noise enough to pay. Directions are only
-  // aimed if the worth of all spots together (Node::worth) exceeds this multiple of the worth that all
-  // surfaces would have under uniform light. Measured:
-  //   scene                             relative worth   noise relative to no aiming
-  //   room with a lit lampshade         31               one third
-  //   open-plan office, around a goal    8               two thirds
-  //   small room, around a goal          2               slightly less than 1
-  // Insensitive. For light that enters through openings, no minimum worth is required; in the sunlit
-  // classroom the relative worth is 2.3.
+  // Directions are only aimed if the worth of all spots together (Node::worth) exceeds this multiple of the
+  // worth that all surfaces would have under uniform light, since aiming makes a path 25% more expensive.
+  // Measured: a relative worth of 31 (a lit lampshade), 8 (an office, around a goal) and 2 (a small room)
+  // leaves one third, two thirds and nearly all of the noise. Insensitive. For light that enters through
+  // openings, no minimum is required.
   RSPHERE_DERIVED(BrightSpots, double, kBrighter, 5);
   // Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only
   // the relative power of spots matters.
@@ -58,23 +51,17 @@ struct BrightSpots {
 struct Highlights {
   // Rays are aimed at a highlight if otherwise, hit only by chance, it would add more than this multiple of
   // the squared mean radiance to the variance of a direction. Measured in an open-plan office with 50 rough
-  // balls and 51 rough legs (-ab 1 -ad 64), at three points: at a desk, above a desk, and at the ceiling.
-  // With .2, only the first improves. Without aiming, single sensors beside cylinders are wrong by a factor
+  // balls and 51 rough legs, at a desk, above it, and at the ceiling: noise of 2.61 .92 2.84% without, .44
+  // .49 2.84% with .1, .44 .20 2.71% with .05, .23 .28 2.58% with .02; with .2, only the first improves.
+  // Without aiming, single sensors beside cylinders are wrong by a factor
   // (tests/bench/mechanisms/runs/2026-11-29-rays.txt).
-  //          noise                   work relative to no aiming
-  //   none   2.61%  .92%  2.84%     1     1     1
-  //   .1      .44%  .49%  2.84%     1.12  1.03  1.00
-  //   .05     .44%  .20%  2.71%     1.13  1.04  1.01
-  //   .02     .23%  .28%  2.58%     1.16  1.07  1.02
   RSPHERE_TUNED(Highlights, double, kLeast, .05);
   // Gathers with at least this number of rays search for highlights on cylinders. Derived: in the office of
-  // kLeast, a search takes as long as two rays, at most an eighth of the gather. If single rays searched,
-  // too, spherical means would take 1.5 times the time for equal noise.
+  // kLeast, a search takes as long as two rays, at most an eighth of the gather.
   RSPHERE_DERIVED(Highlights, int, kMany, 16);
-  // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. Measured for
-  // spherical means in the office of kLeast: relative to no aiming at balls, the work for equal noise
-  // increases by 3%; with a factor of 1, by 6%. kLeast divided by this is also the threshold for each single
-  // highlight on cylinders, because many cylinders add up. Insensitive.
+  // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. kLeast divided
+  // by this is also the threshold for each single highlight on cylinders, because many cylinders add up.
+  // Insensitive.
   RSPHERE_DERIVED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
   // wider part would be noticeably curved. Also used for the parts of sources whose images in mirroring balls
