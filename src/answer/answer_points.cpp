@@ -1,12 +1,9 @@
 #include "answer/answer_points.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <optional>
 
 #include "answer/header.h"
-#include "answer/progress.h"
 #include "base/constants.h"
 #include "base/spectral_sampling.h"
 #include "pictures/draw_point.h"

@@ -1,7 +1,5 @@
 #pragma once
-#include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "answer/answer_options.h"

@@ -13,7 +13,6 @@
 #include <limits>
 #include <map>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 #include "answer/answer_writer.h"

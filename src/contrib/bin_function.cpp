@@ -7,7 +7,6 @@
 
 #include "rad_parser/number.h"
 #include "rad_parser/rayinit/interface.h"
-#include "shade/function_file.h"
 
 namespace rsphere {
 namespace {

@@ -1,10 +1,8 @@
 #include "estimate/contribution_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <span>
-#include <vector>
 
 #include "base/spectral_sampling.h"
 #include "estimate/tuning.h"

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "image/codec.h"
-#include "image/picture_formats.h"
 #include "rad_parser/error.h"
 #include "rad_parser/open_file.h"
 

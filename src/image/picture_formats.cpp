@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <new>
 #include <span>
-#include <string_view>
 
 #include "image/rgbe.h"
 

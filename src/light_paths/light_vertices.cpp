@@ -1,7 +1,6 @@
 #include "light_paths/light_vertices.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "light_paths/tuning.h"

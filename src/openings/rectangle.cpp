@@ -1,7 +1,5 @@
 #include "openings/rectangle.h"
 
-#include <cmath>
-
 namespace rsphere {
 
 std::span<const V3d> cornersOf(const Scene& scene, const Polygon& polygon) {

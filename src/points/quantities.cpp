@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "base/constants.h"
-#include "points/kernels.h"
 
 namespace rsphere {
 namespace {

@@ -1,6 +1,5 @@
 #include "rcontrib/contribution_run.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <functional>

@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "image/rgbe.h"
-#include "records/number_text.h"
 
 namespace rsphere {
 

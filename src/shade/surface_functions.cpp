@@ -12,7 +12,6 @@
 #include "rad_parser/open_file.h"
 #include "rad_parser/printable.h"
 #include "rad_parser/scene_file.h"
-#include "shade/function_file.h"
 
 namespace rsphere {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/frame.h"
-#include "spots/tuning.h"
 
 namespace rsphere {
 namespace {
