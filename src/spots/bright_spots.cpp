@@ -100,26 +100,33 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
 std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings& openings, const Scene& scene,
                                                                  const Tracer& tracer,
                                                                  const LightSources& lights) const {
-  std::vector<Particle> found;
-  Random random(1);
+  struct Sent {
+    V3d direction;
+    double power;  // W
+  };
+  std::vector<Sent> sent;
   for (const LightSource& light : lights.all()) {
     if (light.isVirtual()) continue;
     const Surface& surface = scene.surfaces[light.surface];
     const auto* distant = surface.shape.as<Distant>();
     const double radiance = brightness(sourceRadiance(scene, surface));
     if (!distant || !(radiance > 0)) continue;
-    const V3d direction = -distant->direction;
-    const double all = areaTowards(openings.all(), direction);
-    if (!(all > 0)) continue;
-    const double each = radiance * distant->solidAngle * all / tuning::BrightSpots::kParticles;
-    for (int i = 0; i < tuning::BrightSpots::kParticles; ++i) {
+    const double all = areaTowards(openings.all(), -distant->direction);
+    if (all > 0) sent.push_back({-distant->direction, radiance * distant->solidAngle * all});
+  }
+  // Hundreds of suns, as of a year of daylight, share the particles.
+  const auto count = static_cast<int>(
+      std::ceil(tuning::BrightSpots::kParticles / static_cast<double>(std::max<size_t>(1, sent.size()))));
+  std::vector<Particle> found;
+  Random random(1);
+  for (const auto& [direction, power] : sent)
+    for (int i = 0; i < count; ++i) {
       const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
       const V3d in = pointTowards(openings.all(), direction, u1, u2, u3);
       if (tracer.nearest(in, -direction).surface != kNone) continue;
-      if (const auto particle = arrived(scene, tracer, in, direction, each, random))
+      if (const auto particle = arrived(scene, tracer, in, direction, power / count, random))
         found.push_back(*particle);
     }
-  }
   return found;
 }
 
