@@ -24,7 +24,7 @@ DECLINATION = 23.45  # degrees, the largest
 DIM = 0.02  # of the mean light; darker sensors are inside of something
 NEGLIGIBLE, FEW = 1e-3, 64  # light with all groups closed, by that of the scene as it is drawn; rays of a sensor by which it is known
 LEFT_OUT = 0.005  # of the sun's light may come from positions that are not computed: a seventh of them
-JUDGED = 16  # hours in which reflected sun is computed from the true position, too
+JUDGED = 48  # hours in which reflected sun is computed from the true position, too
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
 
 

@@ -32,8 +32,8 @@ class Settings:
     bounces: int = 8
     divisions: int = 256  # for the sky
     sun_divisions: int = 32  # for reflected sun, whose rays take ten times as long
-    seasons: int = 13  # declinations of the sun, and hours between its positions: by these the light of single hours errs by 1% in
-    hours: float = 0.5  # a classroom with windows to the south
+    seasons: int = 13  # declinations of the sun, and hours between its positions: by these the light of single hours errs by .5% in
+    hours: float = 1 / 3  # a classroom with windows to the south and the east (by half hours .7%)
     threads: int = 0
     radiance: bool = False  # of rays instead of illuminance: cd/m2, without the disk of the sun
 
