@@ -136,7 +136,7 @@ class Annual(unittest.TestCase):
             ("w.wea:9: the hour must be from 1 to 24", e.replace("2000,6,1,1,60", "2000,6,1,0,60"), None), ("w.wea:1: LOCATION has 2 fields", e.replace("LOCATION,P", 'LOCATION,"P'), None),
             ("co.f: has no header with FORMAT=ascii", good, b""), ("co.f: has no header", good, gzip.compress(coefficients())), ("co.f: has 0 bytes", good, coefficients(values=0)),
             ("co.f: has a coefficient that is not a finite", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"nan", 1)),
-            ("co.f: has a coefficient that is not a number: b'1?0'", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"1_0", 1)),
+            ("co.f: has a coefficient that is not a number: \"1?0\"", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"1_0", 1)),
             ("co.f: its header lacks NROWS=, a whole number", good, coefficients(NROWS="-1")), ("co.f: has 1 bins", good, coefficients(NROWS="146", NCOLS="1")),
             ("co.f: has 1752 bytes of coefficients, not 1751999998248", good, coefficients(NROWS="999999999")), ("co.f: its BigEndian= must be 0 or 1", good, coefficients(header="BigEndian=2\n")),
             ("co.f: has a sensor whose coefficients add up to 1.46e+03, more than pi", good, coefficients(FORMAT="ascii").replace(b"1e-2", b"10")),
@@ -154,6 +154,7 @@ class Annual(unittest.TestCase):
                 self.assertIn(said, self.light(weather, of_sky)[1])
         for weather in (b"\xef\xbb\xbf" + good.encode(), good.replace(" ", "\t"), good.replace("\n", "\r\n"), good.replace("place X", "place New York")):
             self.assertEqual(self.light(weather), self.light(good))
+        self.assertEqual(self.light(e.replace(",", ", ").replace("LOCATION, ", "LOCATION,"), name="w.epw"), self.light(e, name="w.epw"), "blanks before fields")
         self.assertEqual(self.light(WEA + "2 29 12.5 300 100\n")[1].count("\n"), 1, "one hour")
 
     def test_weather_that_is_surely_wrong(self):
@@ -163,6 +164,7 @@ class Annual(unittest.TestCase):
         self.assertGreater(self.light(of_days())[0], 0)
         for said, weather in (
             ("w.wea:15: 73% of the direct light is at hours without a sun or without diffuse light, such as 6-1 at 8.5 h", of_days(header=WEA.replace("longitude -10", "longitude 170"))),
+            ("w.wea:7: 33% of the diffuse light is at hours without a sun", WEA + "\n".join(f"6 {day} {h + 0.5} 0 200" for day in range(1, 11) for h in range(24)) + "\n"),
             ("w.wea:14: 110 of 110 hours with a high sun have more irradiance than there is outside", of_days(150, 1400)),
             ("w.wea: no hour has more than 5% of the irradiance outside", of_days(0.3, 0.15)),
             ("w.wea:1: the fields of an .epw are separated by commas alone", epw().replace(",", " , ")),
@@ -210,7 +212,8 @@ class Annual(unittest.TestCase):
                             (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
                             (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"), (["w.epw", "r.rad"], "w.epw: cannot be read: No such file"),
                             (["w.epw"], "needs scene files, or --coefficients alone"), (["r.rad", "w.epw"], "needs --weather FILE"),
-                            (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both")):
+                            (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both"),
+                            (["--weather", "w", "r.rad", "--shades", "pane=r.rad"], "--shades pane=r.rad: is a file of the scene")):
             with self.subTest(words):
                 run = run_here([built("rsphere-annual"), *words])
                 self.assertEqual((run.returncode, run.stdout, run.stderr.count("\n")), (1, "", 1), run.stderr)

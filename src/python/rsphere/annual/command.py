@@ -27,7 +27,7 @@ from .verdicts import FROM, UNTIL, verdicts_of
 from .weather import read_weather
 
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
-LATE, TOO_LATE = 0.05, 0.25  # of the direct light may be at hours when the sun is down: the first and the last hour of a day
+LATE, TOO_LATE = 0.05, 0.25  # of the light may be at hours when the sun is down: the first and the last hour of a day
 MOST_ESTIMATES = 512
 SUN_SHARE = 8  # of --divisions for reflected sun, whose rays take longer: least noise for the time in two rooms (least at 9 and 16)
 QUARTER_HOUR = 3.75  # degrees of longitude
@@ -85,6 +85,9 @@ def arguments():
     for file in given.scene:
         if given.scene.count(file) > 1:
             raise Fault(f"{file}: is named twice; its panes would stand behind each other")
+    for word in given.shades:
+        if word.partition("=")[2] in given.scene:
+            raise Fault(f"--shades {word}: is a file of the scene, which is always there; blinds need a file of their own")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     given.day = outside.day_of(given.day)
@@ -115,12 +118,13 @@ def check_weather(file, weather, dark_sun):
     n, missing = len(weather.hours), weather.missing
     if n + missing > HOURS_OF_LEAP_YEAR:
         raise fault(file, None, f"has {n + missing} rows, more than a year has hours: each must be an hour")
-    direct = np.array([row[3] for row in weather.hours])
-    late = direct[dark_sun].sum() / max(direct.sum(), 1e-9)
+    light = np.array([row[3:] for row in weather.hours])
+    shares = light[dark_sun].sum(axis=0) / np.maximum(light.sum(axis=0), 1e-9)
+    late = shares.max()
     if late > LATE:
-        at = np.flatnonzero(dark_sun & (direct > 0))[0]
+        at = np.flatnonzero(dark_sun & (light[:, np.argmax(shares)] > 0))[0]
         first = weather.hours[at]
-        doubt(file, weather.lines[at], f"{late:.0%} of the direct light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
+        doubt(file, weather.lines[at], f"{late:.0%} of the {('direct', 'diffuse')[np.argmax(shares)]} light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
               f"{first[2]:g} h; are its latitude, longitude and time zone right?", late > TOO_LATE, weather)
     if missing:
         warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")

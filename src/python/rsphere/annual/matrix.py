@@ -27,7 +27,8 @@ def numbers_of(path, words, data, count):
         try:
             numbers = np.array(data.replace(b"_", b"?").split(), float)  # float() reads 1_000
         except ValueError as error:
-            raise fault(path, None, f"has a coefficient that is not a number: {str(error).partition(': ')[2]}") from None
+            word = str(error).partition(": b")[2].strip("'")[:40]
+            raise fault(path, None, f'has a coefficient that is not a number: "{word}"') from None
         if len(numbers) != count:
             raise fault(path, None, f"has {len(numbers)} coefficients, not {count}")
         return numbers

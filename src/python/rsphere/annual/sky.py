@@ -71,7 +71,7 @@ class Daylight(NamedTuple):
     sun: np.ndarray  # lx on a surface that faces it
     to_sun: np.ndarray  # (hours, 3)
     diffuse: np.ndarray  # lx of the sky on an unobstructed horizontal surface
-    dark: np.ndarray  # whether the sun is down, though the file has direct light
+    dark: np.ndarray  # whether the file has light that is left out: the sun is down, or there is no diffuse light
 
 
 def light_of(row, altitude):
@@ -100,7 +100,7 @@ def daylight_of(rows, place, factor):
     for i, row in enumerate(rows):
         altitude, azimuth = sun_position(int(row[0]), int(row[1]), row[2], *place)
         if altitude <= 0 or row[4] <= 0:
-            found.dark[i] = row[3] > 0
+            found.dark[i] = row[3] + row[4] > 0
             continue
         by_sky, by_sun, parameters = light_of(row, altitude)
         sun = np.array([math.cos(altitude) * math.sin(azimuth), math.cos(altitude) * math.cos(azimuth), math.sin(altitude)])

@@ -50,7 +50,7 @@ def place_of(file, latitude, longitude, zone):
 
 
 def read_epw(file, lines):
-    place = next(csv.reader(lines[:1]))
+    place = next(csv.reader(lines[:1], skipinitialspace=True))
     if len(place) < 9:
         raise fault(file, 1, f"LOCATION has {len(place)} fields instead of 10")
     hours, at, missing = [], [], 0
@@ -58,7 +58,7 @@ def read_epw(file, lines):
     if early:
         raise fault(file, early, f"is an hour, but an .epw has {HEADER} lines before its first hour")
     for line, text in enumerate(lines[HEADER:], HEADER + 1):
-        row = next(csv.reader([text]), [])
+        row = next(csv.reader([text], skipinitialspace=True), [])
         if row and len(row) < 16:
             raise fault(file, line, f"an hour has at least 16 fields, up to the diffuse horizontal irradiance, not {len(row)}")
         if row and any(MISSING.fullmatch(word) for word in row[14:16]):
