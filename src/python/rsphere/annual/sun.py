@@ -2,8 +2,6 @@
 import math
 
 MONTHS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
-LEAP = 0.2  # days: weather of a year names no year, and this is nearest to the sun of 2006 to 2025 (.09 degrees rms, .24 at most)
-TILT = math.radians(23.439)  # of the earth's axis
 
 
 def day_of_year(month, day):
@@ -12,13 +10,11 @@ def day_of_year(month, day):
 
 def sun_position(month, day, hour, latitude, longitude, zone):
     """Altitude, and azimuth from north towards east (radians), at an hour of local standard time. Latitude, longitude and the
-    meridian of the time zone in degrees north and east. By the low-precision formulas of the Astronomical Almanac (Michalsky 1988)."""
-    days = day_of_year(month, day) - 1 + (hour - zone / 15) / 24 + LEAP
-    mean, anomaly = math.radians(280.460 + 0.9856474 * days), math.radians(357.528 + 0.9856003 * days)
-    along = mean + math.radians(1.915 * math.sin(anomaly) + 0.020 * math.sin(2 * anomaly))
-    declination = math.asin(math.sin(TILT) * math.sin(along))
-    ascension = math.atan2(math.cos(TILT) * math.sin(along), math.cos(along))
-    turn = math.pi * (hour + (longitude - zone) / 15 - 12) / 12 + math.remainder(mean - ascension, 2 * math.pi)
+    meridian of the time zone in degrees north and east. By the formulas of RADIANCE's gensky (IES RP-21, 1984)."""
+    j = day_of_year(month, day)
+    declination = 0.4093 * math.sin(2 * math.pi * (j - 81) / 368)
+    equation = 0.170 * math.sin(4 * math.pi * (j - 80) / 373) - 0.129 * math.sin(2 * math.pi * (j - 8) / 355)
+    turn = math.pi * (hour + equation + (longitude - zone) / 15 - 12) / 12
     north = math.radians(latitude)
     up = math.sin(north) * math.sin(declination) + math.cos(north) * math.cos(declination) * math.cos(turn)
     east = -math.cos(declination) * math.sin(turn)
