@@ -195,7 +195,7 @@ class SceneReader {
 
   // After the failure of a command, surfaces may be missing without any sign in the results. The failure is
   // therefore an error, except in the scene files of an octree (goesOn), which was made without these
-  // surfaces.
+  // surfaces. The same holds for xform().
   void badStatus(Place place, const std::string& shown, const std::string& fault, bool goesOn) const {
     const std::string text = fmt::format("bad status from \"{}\": {}", printable(shown), fault);
     if (!goesOn) throw builder_.error(place, text + "; surfaces that it makes may be missing from the scene");
@@ -215,18 +215,16 @@ class SceneReader {
           auto path = findFile(name, libraryPath(), context.directory, options_.files);
           if (!path) path = fileBeside(builder_.description(), place, name, options_.files);
           if (!path)
-            throw builder_.error(place,
-                                 fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
-                                             options_.files.remark(name, true)),
-                                 Status::system);
+            throw XformFault(fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
+                                         options_.files.remark(name, true)),
+                             Status::system);
           auto known =
               std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
           const bool again = known != seen.end();
           if (!again) known = seen.insert(known, {*path, builder_.addFile(*path, place)});
           const OpenFile input(*path);
           if (input.descriptor() < 0)
-            throw builder_.error(
-                place,
+            throw XformFault(
                 fmt::format("xform: cannot open file \"{}\": {}", printableName(name), std::strerror(errno)),
                 Status::system);
           TextSource text(input.descriptor(), known->second, builder_);
@@ -237,7 +235,8 @@ class SceneReader {
         }
       });
     } catch (const XformFault& fault) {
-      throw builder_.error(place, fault.what(), fault.status());
+      if (!ofOctree_) throw builder_.error(place, fault.what(), fault.status());
+      warn(place, fault.what());
     }
   }
 

@@ -259,10 +259,10 @@ void PartSampler::add(const V3d& direction, double solidAngle, double length) {
   SourceSample sample{direction, solidAngle, 1e10, 1, -direction, index_};
   if (!hit(direction, length, sample)) return;
   if (source_.reach > 0 && length > source_.reach) return;
-  if (source_.spot && !source_.isDistant()) {
+  if (source_.spot) {
     if (outsideSpot(*source_.spot, direction)) return;
-    // The beam of a spotlight diverges from a focus behind the surface.
-    const double nearer = length / (length + source_.spot->focalLength);
+    // The beam of a spotlight diverges from a focus behind the surface, which does not matter at infinity.
+    const double nearer = source_.isDistant() ? 1 : length / (length + source_.spot->focalLength);
     sample.solidAngle *= nearer * nearer;
   }
   samples_.push_back(sample);

@@ -182,7 +182,9 @@ ContributionOutputs::ContributionOutputs(const ContributionOptions& options, con
   const std::time_t now = std::time(nullptr);
   std::vector<Output*> completed;
   for (const auto& output : outputs_) {
-    const bool mayHaveRecords = options.recovers && !output->plan.name.empty() && output->plan.name[0] != '!';
+    if (options.recovers && output->plan.name.empty())
+      throw rad::Error("-r: cannot recover from the standard output; -o names files");
+    const bool mayHaveRecords = options.recovers && output->plan.name[0] != '!';
     if (const auto records =
             mayHaveRecords ? output->openToComplete(options, tracked.components()) : std::nullopt) {
       recovered_ = completed.empty() ? *records : std::min(recovered_, *records);

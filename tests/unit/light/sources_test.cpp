@@ -93,6 +93,18 @@ TEST(Source, SunLightsByItsProjectedSolidAngle) {
 }
 
 // Half the sky or more gives pi on what faces it, not its solid angle.
+// A sun overhead of 2 degrees, whose material is a spotlight with a cone of 10 degrees.
+TEST(Source, ADistantSpotlightLightsAlongItsAimAlone) {
+  const auto byAim = [](const char* aim) {
+    const Scene scene = sceneOf(
+        lit(fmt::format("spotlight lamp\n0\n0\n7 1 1 1 10 {}", aim).c_str(), "source s\n0\n0\n4 0 0 1 2\n"));
+    return irradiance(samplesAt(scene, V3d(0, 0, 0), {}), kUp);
+  };
+  EXPECT_NEAR(byAim("0 0 -3"), kPi * std::pow(std::sin(kDegree), 2), 1e-5);
+  EXPECT_EQ(byAim(".1 0 -1"), 0);  // 5.7 degrees off
+  EXPECT_EQ(byAim("0 0 1"), 0);
+}
+
 TEST(Source, HalfTheSkyLightsByPi) {
   const Scene half = sceneOf(light("source s\n0\n0\n4 0 0 1 180\n"));
   const Scene whole = sceneOf(light("source s\n0\n0\n4 0 0 1 360\n"));

@@ -140,6 +140,21 @@ TEST(OctreeFile, NamedFilesAreReadFromWhereItWasMade) {
                 "in the folder that it was made in)");
 }
 
+TEST(OctreeFile, FailuresOfCommandsInNamedFilesAreWarnings) {
+  const TestFolder folder;
+  for (const char* name : {"named.oct", "every.rad", "ball.rad"})
+    std::filesystem::copy(fixture(name), folder.path(name));
+  const InFolder here(folder.path());
+  std::ofstream("every.rad", std::ios::app) << "\n!exit 3\n!xform -q 3 ball.rad\n!xform missing.rad\n";
+  std::vector<std::string> warnings;
+  EXPECT_EQ(readFile("named.oct", &warnings).primitives.size(), 19u);
+  std::erase_if(warnings, [](const std::string& w) { return w.find("writes nothing") != w.npos; });
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("bad status from \"!exit 3\": exit status 3"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("xform: bad option or argument"), std::string::npos) << warnings[1];
+  EXPECT_NE(warnings[2].find("xform: cannot find file \"missing.rad\""), std::string::npos) << warnings[2];
+}
+
 TEST(OctreeFile, NamedFilesThatChangedAreStale) {
   const TestFolder folder;
   for (const char* name : {"named.oct", "every.rad", "ball.rad"})
