@@ -25,8 +25,8 @@ struct RayOptions {
   int chosenSources = 0;             // -Ss  number of random sources sampled at a surface; 0: all
   int directPretest = 512;           // -dp
   bool sourcesVisible = true;  // -dv  whether sources show their radiance to primary rays, instead of black
-  // -Sgc  Whether light of a lamp at the ray's origin counts that polished surfaces reflect before any other
-  // surface. Shadow rays do not find it, and neither do other rays of rtrace, unless by a mirror.
+  // -Sgc  Whether a lamp at the ray's origin also lights by caustics: by light that a polished surface
+  // reflects first. The shadow rays of the places that it lights would not find it, except by a flat mirror.
   bool caustics = true;
   // specular reflection
   double specularSampling = 1;     // -ss

@@ -39,7 +39,7 @@ MOST_SHADOWS = 4_000_000  # shadow rays of one call
 MOST_VALUES = 4_000_000  # of importance in one call
 SETS = 4  # of directions, from whose spread standard errors follow
 IMAGES = {"mirror", "prism1", "prism2"}  # materials that shadow rays find lamps in
-CHEAP = dict(ds=0, dj=0)  # for a difference without the light that this samples: an eighth of the time
+CHEAP = dict(ds=0, dj=0)  # for the difference of two runs, in which direct light cancels: an eighth of the time
 LEAST_OF_PLANES, LEAST_OF_SQUARES = 6, 12  # cells that a polynomial of degree one and two needs, twice its terms
 WEIGHTS = np.array([0.265, 0.670, 0.065])  # of red, green and blue in brightness
 
