@@ -120,11 +120,12 @@ def check_weather(file, weather, dark_sun):
         raise fault(file, None, f"has {n + missing} rows, more than a year has hours: each must be an hour")
     light = np.array([row[3:] for row in weather.hours])
     shares = light[dark_sun].sum(axis=0) / np.maximum(light.sum(axis=0), 1e-9)
-    late = shares.max()
+    kind = np.argmax(shares)
+    late = shares[kind]
     if late > LATE:
-        at = np.flatnonzero(dark_sun & (light[:, np.argmax(shares)] > 0))[0]
+        at = np.flatnonzero(dark_sun & (light[:, kind] > 0))[0]
         first = weather.hours[at]
-        doubt(file, weather.lines[at], f"{late:.0%} of the {('direct', 'diffuse')[np.argmax(shares)]} light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
+        doubt(file, weather.lines[at], f"{late:.0%} of the {('direct', 'diffuse')[kind]} light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
               f"{first[2]:g} h; are its latitude, longitude and time zone right?", late > TOO_LATE, weather)
     if missing:
         warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
