@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/unit/spots/highlight_scene.h"
 #include "tests/unit/transport/transport_fixture.h"
@@ -50,6 +51,25 @@ TEST(GatherDirections, HalfAreNotAimedAtSpots) {
   });
   EXPECT_GT(largest, 1.5) << "about half are aimed";
   EXPECT_LE(largest, 2 + 1e-9);
+}
+
+// Directions that are not aimed have all of the weight of a hemisphere without bright places, in each set.
+TEST(GatherDirections, FewLeaveAWholeNumberUnaimed) {
+  const Traced room(kSunlitRoom, unbiased(2));
+  const V3d point(2, 2, 3), normal(0, 0, -1);
+  for (const int count : {2, 4, 8, 23}) {
+    const GatherDirections directions(room.transport().aims(), point, normal, normal, count);
+    Random random(1);
+    for (int set = 0; set < 200; ++set) {
+      int unaimed = 0;
+      double largest = 0;
+      std::vector<double> parts;
+      directions.draw({count, random}, [&](const V3d&, double part) { parts.push_back(part); });
+      for (const double part : parts) largest = std::max(largest, part);
+      for (const double part : parts) unaimed += part > largest * (1 - 1e-9);
+      EXPECT_LE(unaimed * largest, 1 + 1e-9) << count << " directions";
+    }
+  }
 }
 
 // Directions that are not aimed all have the same part.
