@@ -46,13 +46,13 @@ class Gathers {
     return withSolutions(ofGathers(halves_[half]), halves_[half].means());
   }
   // The variance of the mean of both halves.
-  Variance variance() const {
-    Variance both = ofGathers(halves_[0]);
-    both += ofGathers(halves_[1]);
-    std::array<Radiance, kInHalf> means = halves_[0].means();
-    const auto others = halves_[1].means();
-    for (size_t k = 0; k < kInHalf; ++k) means[k] = (means[k] + others[k]) / 2;
-    return withSolutions(both * (1. / 4), means);
+  Variance variance() const { return withSolutions(ofGathers(), meansOfSolutions()); }
+
+  // Whether the noise of patches, which more rays do not reduce, exceeds this error.
+  bool patchesExceed(double error) const {
+    if (!share_) return false;
+    const double shown = ofSolutions(meansOfSolutions()).brightness;
+    return shown > error * error && shown > tuning::RaySets::kByPatches * ofGathers().brightness;
   }
 
  private:
@@ -92,11 +92,24 @@ class Gathers {
     }
     return sum;
   }
+  Variance ofGathers() const {
+    Variance both = ofGathers(halves_[0]);
+    both += ofGathers(halves_[1]);
+    return both * (1. / 4);
+  }
+  std::array<Radiance, kInHalf> meansOfSolutions() const {
+    std::array<Radiance, kInHalf> means = halves_[0].means();
+    const auto others = halves_[1].means();
+    for (size_t k = 0; k < kInHalf; ++k) means[k] = (means[k] + others[k]) / 2;
+    return means;
+  }
   // means: of the gathers of each solution.
+  Variance ofSolutions(std::span<const Radiance> means) const {
+    return spreadOf(means) * (tuning::RaySets::kOfSolutions / static_cast<double>(means.size()));
+  }
   Variance withSolutions(const Variance& ofGathers, std::span<const Radiance> means) const {
     if (!share_) return ofGathers;
-    const Variance ofMeans =
-        spreadOf(means) * (tuning::RaySets::kOfSolutions / static_cast<double>(means.size()));
+    const Variance ofMeans = ofSolutions(means);
     return {combined(ofGathers.channels, ofMeans.channels, [](double x, double y) { return std::max(x, y); }),
             std::max(ofGathers.brightness, ofMeans.brightness)};
   }
@@ -156,6 +169,9 @@ std::vector<PathTracer> RayEstimator::tracers() const {
   std::vector<PathTracer> tracers;
   for (; mode.solution < transport_.prepared().options().solutions; ++mode.solution)
     tracers.push_back(transport_.pathTracer(mode));
+  static const Caches none;
+  if (options_.accuracy > 0 && transport_.caches().coarse)
+    tracers.emplace_back(transport_.prepared(), none, transport_.aims(), mode);
   return tracers;
 }
 
@@ -163,18 +179,34 @@ RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, 
                                               const V3d& direction, double farthest, uint64_t seed,
                                               PathRequest request,
                                               const std::function<void()>& checkStop) const {
-  const auto gather = [&](size_t set, int rays, uint64_t ownSeed) {
+  const bool usesPatches = transport_.caches().coarse != nullptr;
+  const auto trace = [&](PathTracer& tracer, int rays, uint64_t ownSeed) {
     request.rays = rays;
-    return tracers[set % tracers.size()].trace(origin, direction, farthest, ownSeed, request);
+    return tracer.trace(origin, direction, farthest, ownSeed, request);
   };
-  return estimate(gather, seed, checkStop);
+  const auto solutions = static_cast<size_t>(transport_.prepared().options().solutions);
+  const Attempt attempted =
+      attempt([&](size_t set, int rays, uint64_t own) { return trace(tracers[set % solutions], rays, own); },
+              seed, usesPatches, checkStop);
+  if (!attempted.patchesTooNoisy) return attempted.estimate;
+  const Attempt byPaths =
+      attempt([&](size_t, int rays, uint64_t own) { return trace(tracers.back(), rays, own); }, mixBits(seed),
+              false, checkStop);
+  const bool better = byPaths.estimate.relativeError < attempted.estimate.relativeError;
+  return (better ? byPaths : attempted).estimate;
 }
 
 RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t seed,
                                               const std::function<void()>& checkStop) const {
+  return attempt(gather, seed, transport_.caches().coarse != nullptr, checkStop).estimate;
+}
+
+RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed, bool usesPatches,
+                                            const std::function<void()>& checkStop) const {
   const SpectralSampling* const sampling = transport_.prepared().options().sampling;
-  Estimate answer;
-  Gathers all(transport_.caches().coarse != nullptr, sampling);
+  Attempt attempted;
+  Estimate& answer = attempted.estimate;
+  Gathers all(usesPatches, sampling);
   bool gathers = false;
   // Adds a round of gathers to a half, so that each of its sets has this number of rays.
   const auto addRound = [&](size_t half, double upTo) {
@@ -199,6 +231,11 @@ RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t see
   addRound(1, first_);
   for (bool goesOn = target_ > 0; goesOn;) {
     if (checkStop) checkStop();
+    if (options_.accuracy > 0 && all.patchesExceed(target_ * valueOf(all.mean()))) {
+      attempted.patchesTooNoisy = true;
+      answer.reached = false;
+      break;
+    }
     std::array<double, 2> asked;
     const auto ask = [&](size_t half, double rays) {
       const double has = all.raysOf(half);
@@ -235,7 +272,7 @@ RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t see
   answer.brightnessError = root(variance.brightness);
   if (const double value = valueOf(answer.ray.value); value > 0)
     answer.relativeError = answer.brightnessError / value;
-  return answer;
+  return attempted;
 }
 
 }  // namespace rsphere

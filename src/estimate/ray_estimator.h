@@ -66,6 +66,13 @@ class RayEstimator {
   Estimate estimate(const Gather& gather, uint64_t seed, const std::function<void()>& checkStop) const;
 
  private:
+  struct Attempt {
+    Estimate estimate;
+    bool patchesTooNoisy = false;  // for the accuracy, which was given up
+  };
+  Attempt attempt(const Gather& gather, uint64_t seed, bool usesPatches,
+                  const std::function<void()>& checkStop) const;
+
   const Transport& transport_;
   Options options_;
   double target_ = 0;            // relative error at which no more rays are sent; 0: one round of sets

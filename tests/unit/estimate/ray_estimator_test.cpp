@@ -114,6 +114,15 @@ TEST(RayEstimator, ReachesTheAccuracy) {
   }
 }
 
+// Patches with few rays have a noise that more rays of the sensors do not reduce. These are answered by paths.
+TEST(RayEstimator, PatchesThatAreTooNoisyAreNotUsed) {
+  RayOptions options = raysOf(.1);
+  options.raysForPatches = 8;
+  const Repeats found = repeat(kRoomWithAWindow, options, {.accuracy = .01}, 12);
+  EXPECT_LT(found.off, 1.3 * .01);
+  EXPECT_EQ(found.reached, 1);
+}
+
 // A sensor in a closed box of the scene would take as many rays as are allowed.
 TEST(RayEstimator, ADarkSensorNeedsOnlyTheFloor) {
   const Repeats to = repeat(kRoomWithALamp, raysOf(0), {.accuracy = .01, .floor = 1e6}, 2);
