@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
     if (const std::string unknown = tuning::unknownName(); !unknown.empty())
       throw rad::Error("RSPHERE_TUNING: no tuning constant \"" + unknown + "\"");
     StopSignals signals(program);
-    const Options options = parseOptions(argc, argv);
+    Options options = parseOptions(argc, argv);
     messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
     if (options.request != Request::answers) return printRequest(options, messages);

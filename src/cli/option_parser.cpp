@@ -283,7 +283,7 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
-  const auto error = std::find_if(options.outputs.begin(), options.outputs.end(), [](char letter) {
+  const auto error = std::ranges::find_if(options.outputs, [](char letter) {
     return haveErrors({&letter, 1});
   });
   if (!options.sphere.glare.wanted && !options.sphere.everyDirection && !haveStandardErrors(color) &&
@@ -455,13 +455,13 @@ struct Given {
 
   // Whether standard errors or an accuracy are requested.
   bool asksForErrors() const {
-    return std::any_of(uses.begin(), uses.end(), [](const Use& use) {
+    return std::ranges::any_of(uses, [](const Use& use) {
       const std::string_view name = use.entry->name;
       return name == "-Sa" || name == "-oe" || (name == "-o" && use.rest.find('e') != std::string::npos);
     });
   }
   bool has(std::string_view name) const {
-    return std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return use.entry->name == name; });
+    return std::ranges::any_of(uses, [&](const Use& use) { return use.entry->name == name; });
   }
 };
 

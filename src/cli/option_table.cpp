@@ -154,7 +154,7 @@ void setColorSpace(Options& options, const OptionEntry& entry, OwnWords, std::st
 constexpr std::array<std::string_view, 5> kReceptors = {"sc", "mc", "lc", "rh", "mel"};
 
 void setReceptor(Options& options, const OptionEntry& entry, OwnWords, std::string_view rest) {
-  const auto found = std::find(kReceptors.begin(), kReceptors.end(), rest);
+  const auto found = std::ranges::find(kReceptors, rest);
   if (found == kReceptors.end())
     commandLineError(fmt::format("{}{}", entry.name, rest), "it is -pEsc, -pEmc, -pElc, -pErh or -pEmel");
   options.color.space = ColorSpace::edi;
@@ -513,7 +513,7 @@ std::span<const OptionEntry> optionTable() { return kOptions; }
 
 int arity(const OptionEntry& entry) {
   if (entry.glued || entry.arguments.empty()) return 0;
-  return 1 + static_cast<int>(std::count(entry.arguments.begin(), entry.arguments.end(), ' '));
+  return 1 + static_cast<int>(std::ranges::count(entry.arguments, ' '));
 }
 
 // The direct light that thresholds leave out, and the light of highlights that are not sampled, would be

@@ -10,13 +10,16 @@
 namespace rsphere {
 namespace {
 
-// The remark after '#' in -defaults, which may depend on values.
-std::string remarkOf(const OptionEntry& entry, const Options& options) {
+// The part of a remark that applies to the value of a switch; for other options the remark.
+std::string_view plainRemark(const OptionEntry& entry, Options& options) {
+  const auto* const value = std::get_if<SwitchValue>(&entry.value);
+  if (value == nullptr) return entry.remark;
   const size_t bar = entry.remark.find('|');
-  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) {
-    Options copy = options;
-    return std::string((*value)(copy) ? entry.remark.substr(0, bar) : entry.remark.substr(bar + 1));
-  }
+  return (*value)(options) ? entry.remark.substr(0, bar) : entry.remark.substr(bar + 1);
+}
+
+// The remark after '#' in -defaults, which may depend on values.
+std::string remarkOf(const OptionEntry& entry, Options& options) {
   if (entry.name == "-co" && options.color.space != ColorSpace::spectrum) return "output tristimulus colors";
   if (entry.name == "-x" && options.height != 0 && options.width != 0) return "x resolution";
   if (entry.name == "-lr" && options.ray.reflectionLimit <= 0) return "limit reflection (Russian roulette)";
@@ -31,7 +34,7 @@ std::string remarkOf(const OptionEntry& entry, const Options& options) {
       if (const auto name = letterName(letter, options); !name.empty()) remark += fmt::format(" {}", name);
     return remark;
   }
-  return std::string(entry.remark);
+  return std::string(plainRemark(entry, options));
 }
 
 // The line of -defaults before its remark, with rtrace's number formats and tabs.
@@ -190,7 +193,7 @@ std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry
   for (const OptionEntry& entry : optionTable())
     if (const std::string line = lineOf(entry, values);
         !line.empty() && worksIn(entry, options.sphereMode) && (!takes || takes(entry)))
-      text += fmt::format("{}# {}\n", line, remarkOf(entry, options));
+      text += fmt::format("{}# {}\n", line, remarkOf(entry, values));
   return text;
 }
 
@@ -200,10 +203,8 @@ std::string helpText(const Options& options) {
       fmt::format("usage: {} [options] scene... < records > answers\n{}", options.program, kSceneHelp);
   for (const auto& [group, name] : kGroups) {
     text += fmt::format("\n{}:\n", name);
-    for (const OptionEntry& entry : optionTable()) {
-      if (entry.group != group || entry.support == Support::refused) continue;
-      text += helpLine(entry, values);
-    }
+    for (const OptionEntry& entry : optionTable())
+      if (entry.group == group && entry.support != Support::refused) text += helpLine(entry, values);
   }
   return text + "\n-defaults prints all options with their values, -version the version. See rsphere(1).\n";
 }
@@ -260,16 +261,9 @@ std::string companionHelp(const Companion& companion, Options& options) {
 
 std::string companionDefaults(const Companion& companion, Options& options) {
   std::string text = defaultsText(options, companion.takes);
-  for (const OptionEntry& entry : companion.own) {
-    if (const std::string line = lineOf(entry, options); !line.empty()) {
-      const auto* value = std::get_if<SwitchValue>(&entry.value);
-      const size_t bar = entry.remark.find('|');
-      text += fmt::format("{}# {}\n", line,
-                          value == nullptr    ? entry.remark
-                          : (*value)(options) ? entry.remark.substr(0, bar)
-                                              : entry.remark.substr(bar + 1));
-    }
-  }
+  for (const OptionEntry& entry : companion.own)
+    if (const std::string line = lineOf(entry, options); !line.empty())
+      text += fmt::format("{}# {}\n", line, plainRemark(entry, options));
   return text;
 }
 

@@ -33,7 +33,7 @@ int runCompanion(const Companion& companion, int argc, char** argv, Options& opt
     const std::vector<UsedOption> used = parseCompanion(words, companion, options);
     messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
-    if (options.request != Request::answers) return printRequest(companion, options, messages);
+    if (options.request != Request::answers) return printRequest(options, messages, &companion);
     return run(used, messages, signals);
   };
   return exitStatus(messages, inside, companion.faultStatus);
