@@ -93,7 +93,7 @@ PrimitiveId ModifierIndex::before(std::string_view name, PrimitiveId index) cons
   const auto found = definitions_.find(name);
   if (found == definitions_.end()) return kVoid;
   const std::vector<PrimitiveId>& at = found->second;
-  const auto after = std::lower_bound(at.begin(), at.end(), index);
+  const auto after = std::ranges::lower_bound(at, index);
   return after == at.begin() ? PrimitiveId() : *std::prev(after);
 }
 

@@ -66,8 +66,8 @@ bool FileAccess::allows(const std::string& path) const {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(path, missing);
   if (missing || !std::filesystem::is_regular_file(file, missing)) return false;
-  return std::any_of(folders_->begin(), folders_->end(),
-                     [&](const std::string& folder) { return file.native().starts_with(folder); });
+  return std::ranges::any_of(*folders_,
+                             [&](const std::string& folder) { return file.native().starts_with(folder); });
 }
 
 std::string FileAccess::remark(std::string_view name, bool inScene) const {

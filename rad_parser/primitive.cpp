@@ -27,7 +27,7 @@ struct NamedType {
 constexpr auto kByName = [] {
   std::array<NamedType, kTypes> sorted;
   for (int i = 0; i < kTypes; ++i) sorted[i] = {kNames[i], static_cast<Type>(i)};
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::ranges::sort(sorted, {}, &NamedType::name);
   return sorted;
 }();
 
@@ -36,8 +36,7 @@ constexpr auto kByName = [] {
 std::string_view typeName(Type type) { return kNames[static_cast<size_t>(type)]; }
 
 bool findType(std::string_view name, Type& type) {
-  const auto at = std::lower_bound(kByName.begin(), kByName.end(), name,
-                                   [](const NamedType& t, std::string_view n) { return t.name < n; });
+  const auto at = std::ranges::lower_bound(kByName, name, {}, &NamedType::name);
   if (at == kByName.end() || at->name != name) return false;
   type = at->type;
   return true;

@@ -46,7 +46,7 @@ std::string shownCommand(std::string_view command) {
 bool isWordOfObj(std::string_view word) {
   constexpr std::array<std::string_view, 9> kWords = {"mtllib", "usemtl", "o",  "g", "v",
                                                       "vn",     "vt",     "vp", "f"};
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+  return std::ranges::find(kWords, word) != kWords.end();
 }
 
 class SceneReader {
@@ -218,8 +218,7 @@ class SceneReader {
             throw XformFault(fmt::format("xform: cannot find file \"{}\"{}", printableName(name),
                                          options_.files.remark(name, true)),
                              Status::system);
-          auto known =
-              std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == *path; });
+          auto known = std::ranges::find_if(seen, [&](const auto& s) { return s.first == *path; });
           const bool again = known != seen.end();
           if (!again) known = seen.insert(known, {*path, builder_.addFile(*path, place)});
           const OpenFile input(*path);

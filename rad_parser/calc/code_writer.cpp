@@ -119,7 +119,7 @@ class CodeWriter {
   bool isEnsured(Id id, uint32_t block) const {
     while (true) {
       const std::vector<Id>& ensured = ensured_[block];
-      if (std::find(ensured.begin(), ensured.end(), id) != ensured.end()) return true;
+      if (std::ranges::find(ensured, id) != ensured.end()) return true;
       const Block& b = layout_.blocks[block];
       if (!b.isInline || b.parent == kNone) return false;
       block = b.parent;

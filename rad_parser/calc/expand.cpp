@@ -280,7 +280,7 @@ class Expander {
             before != kNone && inner.frame->graph.isConstant(before) && before != inner.arguments[i].node;
       }
     }
-    return active == 0 || std::find(isNew.begin(), isNew.end(), true) != isNew.end();
+    return active == 0 || std::ranges::find(isNew, true) != isNew.end();
   }
 
   bool isFunction(const Scope& inner, size_t i) const {
@@ -443,8 +443,7 @@ class Expander {
     Node n;
     n.op = Op::host;
     std::vector<HostFunction>& hosts = out_.hosts;
-    const auto known =
-        std::find_if(hosts.begin(), hosts.end(), [&](const auto& h) { return h.name == f.name; });
+    const auto known = std::ranges::find_if(hosts, [&](const auto& h) { return h.name == f.name; });
     n.a = static_cast<uint32_t>(known - hosts.begin());
     if (known == hosts.end()) hosts.push_back(f);
     for (size_t i = 1; i < tree.args.size(); ++i) n.list.push_back(compile(tree.args[i], scope));

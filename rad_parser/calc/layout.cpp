@@ -73,7 +73,7 @@ class Planner {
       out_.blocks[p.block].nodes.push_back(id);
       useOperands(id, p.block);
     }
-    for (Block& b : out_.blocks) std::reverse(b.nodes.begin(), b.nodes.end());
+    for (Block& b : out_.blocks) std::ranges::reverse(b.nodes);
   }
 
   void useOperands(Id id, uint32_t block) {

@@ -64,8 +64,7 @@ int SymbolTable::find(const std::string& qualified) const {
 }
 
 const HostFunction* SymbolTable::findHost(std::string_view name) const {
-  const auto found =
-      std::find_if(hosts_.begin(), hosts_.end(), [&](const HostFunction& h) { return h.name == name; });
+  const auto found = std::ranges::find_if(hosts_, [&](const HostFunction& h) { return h.name == name; });
   return found != hosts_.end() ? &*found : nullptr;
 }
 
@@ -172,7 +171,7 @@ void SymbolTable::fold(Syntax& tree, const std::string& place) const {
       if (isNumber(tree.args[0])) setNumber(tree, -tree.args[0].number);
       break;
     case Kind::power:
-      if (std::all_of(tree.args.begin(), tree.args.end(), isNumber)) {
+      if (std::ranges::all_of(tree.args, isNumber)) {
         uint32_t faults = 0;
         const double value = apply(Op::power, tree.args[0].number, tree.args[1].number, 0, faults);
         refuse(faults, place);
@@ -191,7 +190,7 @@ void SymbolTable::foldChain(Syntax& tree, const std::string& place) const {
     const Syntax& right = tree.args[i + 1];
     if (tree.text[i] == '/' && isNumber(right) && right.number == 0) refuse(kDivisionByZero, place);
   }
-  if (!std::all_of(tree.args.begin(), tree.args.end(), isNumber)) return;
+  if (!std::ranges::all_of(tree.args, isNumber)) return;
   double value = tree.args[0].number;
   uint32_t faults = 0;
   for (size_t i = 0; i < tree.text.size(); ++i)

@@ -255,7 +255,7 @@ class Parser {
     s.text = name();
     if (s.text.find_first_not_of('`') == std::string::npos) fail("a name after '`'");
     if (parameters_ != nullptr) {
-      const auto found = std::find(parameters_->begin(), parameters_->end(), s.text);
+      const auto found = std::ranges::find(*parameters_, s.text);
       if (found != parameters_->end()) {
         s.kind = Kind::parameter;
         s.index = static_cast<int32_t>(found - parameters_->begin());

@@ -34,8 +34,8 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
     const auto notRising = [](float a, float b) { return a >= b; };
     const auto notFalling = [](float a, float b) { return a <= b; };
     const auto& p = axis.points;
-    if (std::adjacent_find(p.begin(), p.end(), notRising) != p.end() &&
-        std::adjacent_find(p.begin(), p.end(), notFalling) != p.end()) {
+    if (std::ranges::adjacent_find(p, notRising) != p.end() &&
+        std::ranges::adjacent_find(p, notFalling) != p.end()) {
       numbers.fail("expected divisions in ascending or descending order");
     }
   }
@@ -67,8 +67,8 @@ DataFile::Weights DataFile::weights(const Axis& axis, double coordinate) {
   } else {
     const auto& p = axis.points;
     const bool rising = p.front() < p.back();
-    const auto above = rising ? std::upper_bound(p.begin(), p.end(), coordinate)
-                              : std::upper_bound(p.begin(), p.end(), coordinate, std::greater<>());
+    const auto above = rising ? std::ranges::upper_bound(p, coordinate)
+                              : std::ranges::upper_bound(p, coordinate, std::greater<>());
     const auto found = static_cast<size_t>(above - p.begin());
     index = std::min(found > 0 ? found - 1 : 0, last);
     u = static_cast<double>(index) + (coordinate - p[index]) / (p[index + 1] - p[index]);

@@ -98,7 +98,7 @@ void AnswerWriter::writeErrorsOfLightVector(RecordText& text, const PointAnswer&
 
 void AnswerWriter::writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const {
   const auto named = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), answer.modifier) != list.end();
+    return std::ranges::find(list, answer.modifier) != list.end();
   };
   const bool hit = !answer.surface.isNone();
   if (!options_.treeIncluded.empty() && !(hit && named(options_.treeIncluded))) return;

@@ -21,8 +21,7 @@ std::string quoted(const std::string& word) {
     if (word[i] == '"') quote = '\'';
     if (word[i] == '\'') quote = '"';
   }
-  const bool blanks =
-      std::any_of(word.begin(), word.end(), [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
+  const bool blanks = std::ranges::any_of(word, [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
   if (quote == 0 && (word.empty() || blanks)) quote = '"';
   return quote == 0 ? word : quote + word + quote;
 }

@@ -58,7 +58,7 @@ void refuse(bool given, std::string_view option, std::string_view reason) {
 bool isOfOutput(const OptionEntry& entry) {
   static constexpr std::array<std::string_view, 7> kNames = {"-n", "-o", "-h", "-x", "-y", "-t", "-w"};
   if (entry.name == "-cs" || entry.name == "-cw") return false;  // the bands in which light is computed
-  return entry.group == Group::color || std::find(kNames.begin(), kNames.end(), entry.name) != kNames.end();
+  return entry.group == Group::color || std::ranges::find(kNames, entry.name) != kNames.end();
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ CommandOptions commandOptions(const Options& options, Records records) {
            "contributions are red, green and blue, or bands (-cs)");
   }
   const auto isOutputs = [](const UsedOption& option) { return option.entry->name == "-o"; };
-  const bool usual = std::none_of(used.begin(), used.end(), isOutputs);
+  const bool usual = std::ranges::none_of(used, isOutputs);
   if (glare && usual) parsed.outputs = "uUvVbBgGt";
   refuse(glare && parsed.outputs.find_first_of("odn") != std::string::npos, "-o",
          "only the command rsphere writes o, d and n: the caller knows its eyes and gazes, and the length of "

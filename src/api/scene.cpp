@@ -170,9 +170,6 @@ struct Answerer {
     };
     answer = withSensors(answerRay, options, scene->transport.prepared(), *summary);
   }
-  Answerer(const Answerer&) = delete;
-  Answerer& operator=(const Answerer&) = delete;
-
   const rsphere::Options options;
   const std::shared_ptr<PreparedScene> scene;
   const AnswerWriter writer;
@@ -390,7 +387,7 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
   const auto names = columnNames(options);
   for (size_t i = 0; i < options.outputs.size(); ++i) {
     const char letter = options.outputs[i];
-    const auto known = std::find_if(all.begin(), all.end(), [&](const Column& c) {
+    const auto known = std::ranges::find_if(all, [&](const Column& c) {
       return c.letter == letter && (!quantities[i] || c.of == quantities[i]->of);
     });
     if (known == all.end()) {

@@ -46,7 +46,7 @@ void ContributionList::grow() {
 void ContributionList::clear() {
   // The table keeps its size, unless it is much larger than its contents were.
   if (slots_.size() > kFirstSlots && columns_.size() * 16 < slots_.size()) slots_.resize(slots_.size() / 2);
-  std::fill(slots_.begin(), slots_.end(), 0);
+  std::ranges::fill(slots_, 0);
   columns_.clear();
   values_.clear();
 }

@@ -72,7 +72,7 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(
   constexpr double kOfSquares = 1. / (4 * kInHalf * (kInHalf - 1));
   std::vector<double> mean(answer.variances.size());
   for (const size_t half : {size_t{0}, kInHalf}) {
-    std::fill(mean.begin(), mean.end(), 0);
+    std::ranges::fill(mean, 0);
     for (size_t set = half; set < half + kInHalf; ++set)
       for (size_t i = 0; i < sums[set].values().size(); ++i) {
         const size_t at =

@@ -17,8 +17,7 @@ std::vector<V3d> VoronoiWeights::dynamicDirections(const SetAtPoint& set) const 
     const auto count = static_cast<size_t>(std::min(object.density * s.solidAngle() + .5, 1e9));
     if (count > 0) wanted.push_back({std::move(s), count});
   }
-  std::stable_sort(wanted.begin(), wanted.end(),
-                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  std::ranges::stable_sort(wanted, [](const auto& a, const auto& b) { return a.count > b.count; });
   const auto most = static_cast<size_t>(options_.mostDirections);
   size_t left = most > base_.directions.size() ? most - base_.directions.size() : 0;
   std::vector<V3d> directions;

@@ -18,8 +18,6 @@ class StoredSites {
  public:
   StoredSites() = default;
   explicit StoredSites(std::unique_ptr<AmbientFile> file);
-  StoredSites(const StoredSites&) = delete;
-  StoredSites& operator=(const StoredSites&) = delete;
   ~StoredSites();  // writes the new sites
 
   // The light of a site from an earlier run; null if there is none.

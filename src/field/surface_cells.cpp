@@ -1,5 +1,7 @@
 #include "field/surface_cells.h"
 
+#include <tuple>
+
 #include "base/constants.h"
 #include "base/even_sequence.h"
 #include "base/frame.h"
@@ -93,7 +95,7 @@ bool SurfaceChart::setBall(const Sphere& ball, const SurfacePlace& place) {
 
 bool SurfaceChart::setCone(const Cone& cone, const SurfacePlace& place) {
   const V3d out = place.point - cone.base;
-  frame(cone.axis, x_, y_);
+  std::tie(x_, y_) = frame(cone.axis);
   if (isPlaced(place) || out.dot(x_) * place.normal.dot(x_) + out.dot(y_) * place.normal.dot(y_) < 0)
     return false;
   cone_ = &cone;
@@ -132,7 +134,7 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
 
 bool SurfaceChart::setRing(const Ring& ring, const SurfacePlace& place) {
   setNormal(ring.normal, place);
-  frame(normal_, x_, y_);
+  std::tie(x_, y_) = frame(normal_);
   const double outer = ring.outer * (placement_ ? placement_->toOuter.scale : 1);
   origin_ = toWorld(ring.center) - outer * (x_ + y_);
   return setPlace(2 * outer, 2 * outer, place.point);
@@ -173,7 +175,7 @@ SurfaceChart SurfaceChart::ofPlane(const CellGrid& grid, const SurfacePlace& pla
     chart.normal_[c] = steps * kNormalStep;
   }
   chart.normal_.normalize();
-  frame(chart.normal_, chart.x_, chart.y_);
+  std::tie(chart.x_, chart.y_) = frame(chart.normal_);
   const V3d local = place.point - grid.origin;
   // Planes within a slab share a chart. The offset of 3/8 avoids slab boundaries at round numbers.
   const double offset = std::floor(chart.normal_.dot(local) / grid.lift + .375);

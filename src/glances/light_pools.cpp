@@ -55,8 +55,7 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     // until they are finished.
     if (made_.pools.size() > made_.most)
       made_.pools.erase(
-          std::min_element(made_.pools.begin(), made_.pools.end(),
-                           [](const auto& a, const auto& b) { return a.second->asked < b.second->asked; }));
+          std::ranges::min_element(made_.pools, {}, [](const auto& p) { return p.second->asked; }));
   }
   std::call_once(found->made, [&] { found->light = made(preferred, number); });
   return found->light;

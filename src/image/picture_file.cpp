@@ -23,7 +23,7 @@ namespace {
 constexpr std::string_view kPng = ".png";
 
 [[noreturn]] void cannotWrite(const std::string& name, std::string why) {
-  std::replace(why.begin(), why.end(), '\n', ' ');
+  std::ranges::replace(why, '\n', ' ');
   throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
 }
 

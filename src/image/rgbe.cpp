@@ -8,7 +8,7 @@ namespace {
 
 // pixel: one byte for each value, then one for the exponent.
 void setPixel(std::span<const double> values, std::span<uint8_t> pixel) {
-  std::fill(pixel.begin(), pixel.end(), uint8_t{0});
+  std::ranges::fill(pixel, uint8_t{0});
   float largest = 0;
   for (const double value : values) largest = std::fmax(largest, static_cast<float>(value));
   if (!(largest > 1e-32)) return;

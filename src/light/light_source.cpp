@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/constants.h"
 #include "base/frame.h"
@@ -33,10 +34,7 @@ bool isFlat(const Polygon& polygon, std::span<const V3d> vertices) {
 
 // Half the sides of a square of this area with this normal.
 void setSquare(PlaneLight& light) {
-  frame(light.normal, light.u, light.v);
-  const double half = std::sqrt(light.area) / 2;
-  light.u *= half;
-  light.v *= half;
+  std::tie(light.u, light.v) = frame(light.normal, std::sqrt(light.area) / 2);
 }
 
 PlaneLight::Fan fanOf(std::span<const V3d> v) {
@@ -76,9 +74,7 @@ LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
 
 LightSource sourceOf(const Ring& ring, const Scene&) {
   PlaneLight light{.normal = ring.normal, .area = kPi * ring.outer * ring.outer, .map = PlaneLight::Disk{}};
-  frame(ring.normal, light.u, light.v);
-  light.u *= ring.outer;
-  light.v *= ring.outer;
+  std::tie(light.u, light.v) = frame(ring.normal, ring.outer);
   measure(light);
   return {.center = ring.center, .radius = ring.outer, .shape = std::move(light)};
 }

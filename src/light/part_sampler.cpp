@@ -276,8 +276,7 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   const double s = sine * jitter_ * std::sqrt(random_.uniform());
   const double angle = 2 * kPi * random_.uniform();
   const double c = std::sqrt(std::max(0., 1 - s * s));
-  V3d x, y;
-  frame(middle, x, y);
+  const auto [x, y] = frame(middle);
   // The reach of a glow is compared with the distance to a random point in the ball, which avoids a sharp
   // edge.
   double length = distance;
@@ -289,12 +288,11 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
 // addRound() for a ball, stratified: the disk that the ball appears as is divided into parts, with one sample
 // in each.
 void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
-  V3d x, y;
-  frame(middle, x, y);
+  const auto axes = frame(middle);
   const auto onSeenDisk = [&](double s, double t) {
     double a = 2 * s - 1, b = 2 * t - 1;
     toDisk(a, b);
-    return a * x + b * y;
+    return a * axes.first + b * axes.second;
   };
   const auto at = [&](double s, double t) { return source_.center + source_.radius * onSeenDisk(s, t); };
   const auto use = [&](const SourcePart& part, const V3d&) {
@@ -323,8 +321,7 @@ void PartSampler::addDistant(const DistantLight& cone, double distance) {
   const double c = 1 - (1 - cone.cosHalfAngle) * (jitter_ > 0 ? random_.uniform() * jitter_ : 0);
   const double angle = 2 * kPi * (jitter_ > 0 ? random_.uniform() : 0);
   const double s = std::sqrt(std::max(0., 1 - c * c));
-  V3d x, y;
-  frame(source_.center, x, y);
+  const auto [x, y] = frame(source_.center);
   const double omega = 2 * kPi * (1 - cone.cosHalfAngle);
   add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * source_.center, jitter_ > 0 ? omega : kPi,
       distance);

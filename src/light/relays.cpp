@@ -85,10 +85,7 @@ std::vector<V3d> cornersOf(const Box3d& box) {
 
 // The corners of the square around a ring.
 std::vector<V3d> cornersOf(const Ring& ring) {
-  V3d x, y;
-  frame(ring.normal, x, y);
-  x *= ring.outer;
-  y *= ring.outer;
+  const auto [x, y] = frame(ring.normal, ring.outer);
   return {ring.center - x - y, ring.center - x + y, ring.center + x + y, ring.center + x - y};
 }
 
@@ -203,7 +200,7 @@ class Images {
     std::vector<Reached> reached = relaysReached(source, way);
     if (reached.empty()) return;
     const auto passages = std::make_shared<const Way>(Way{std::move(way.passages), {}});
-    std::reverse(reached.begin(), reached.end());
+    std::ranges::reverse(reached);
     for (const Reached& r : reached)
       for (int image = imagesBy(relays_[r.relay]); image-- > 0;)
         pending.push_back({source, passages, r, image, relays});

@@ -46,8 +46,7 @@ SurfacePoint pointOn(const Sphere& sphere, std::span<const V3d>, Numbers& random
 
 template <class Numbers>
 SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Numbers& random) {
-  V3d x, y;
-  frame(cone.axis, x, y);
+  const auto [x, y] = frame(cone.axis);
   const double s = random.uniform(), angle = kTwoPi * random.uniform();
   const V3d out = std::cos(angle) * x + std::sin(angle) * y;
   const double slope = (cone.radius1 - cone.radius0) / cone.length;
@@ -58,8 +57,7 @@ SurfacePoint pointOn(const Cone& cone, std::span<const V3d>, Numbers& random) {
 
 template <class Numbers>
 SurfacePoint pointOn(const Ring& ring, std::span<const V3d>, Numbers& random) {
-  V3d x, y;
-  frame(ring.normal, x, y);
+  const auto [x, y] = frame(ring.normal);
   const double inner = ring.inner * ring.inner, outer = ring.outer * ring.outer;
   const double r = std::sqrt(inner + random.uniform() * (outer - inner)), angle = kTwoPi * random.uniform();
   return {ring.center + r * std::cos(angle) * x + r * std::sin(angle) * y, ring.normal,

@@ -36,7 +36,7 @@ std::vector<uint32_t> orderByPlace(size_t count, const PointOf& pointOf) {
         key |= spread(static_cast<uint32_t>(std::min(at[k] / size[k] * kCells, kCells - 1))) << k;
     keys[i] = {key, static_cast<uint32_t>(i)};
   }
-  std::sort(keys.begin(), keys.end());
+  std::ranges::sort(keys);
   std::vector<uint32_t> order(count);
   for (size_t i = 0; i < count; ++i) order[i] = keys[i].second;
   return order;

@@ -235,7 +235,7 @@ double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point,
                 std::vector<double>& weights) {
   std::span<const uint32_t> sources;
   const double sum = surfaces.weigh(point, normal, sources, weights);
-  const auto own = std::lower_bound(sources.begin(), sources.end(), source.index());
+  const auto own = std::ranges::lower_bound(sources, source.index());
   if (!(sum > 0) || own == sources.end() || *own != source.index()) return 0;
   return weights[static_cast<size_t>(own - sources.begin())] / sum;
 }

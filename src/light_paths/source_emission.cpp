@@ -19,8 +19,7 @@ template <class Numbers>
 V3d withinCone(const V3d& axis, double solidAngle, Numbers& random) {
   const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
   const double r = std::sqrt(std::max(0., 1 - height * height));
-  V3d x, y;
-  frame(axis, x, y);
+  const auto [x, y] = frame(axis);
   return height * axis + r * (std::cos(angle) * x + std::sin(angle) * y);
 }
 
@@ -86,8 +85,7 @@ SourceEmission SourceEmission::preferring(std::span<const uint32_t> preferred) c
 
 LightId SourceEmission::sourceAt(double share) const {
   // A value of 1 may lie beyond the last source.
-  const auto sender = std::upper_bound(senders_.begin(), senders_.end(), share,
-                                       [](double w, const Sender& s) { return w < s.upTo; });
+  const auto sender = std::ranges::upper_bound(senders_, share, {}, &Sender::upTo);
   return sender == senders_.end() ? LightId() : LightId(static_cast<size_t>(sender - senders_.begin()));
 }
 

@@ -258,8 +258,7 @@ bool Blockers::hides(const Box3d& from, const Box3d& to, std::vector<KnownBlocke
   int met = 0;
   const auto hidesBy = [&](SurfaceId surface) {
     ++met;
-    if (std::any_of(known.begin(), known.end(), [&](const auto& b) { return b->surface == surface; }))
-      return false;
+    if (std::ranges::any_of(known, [&](const auto& b) { return b->surface == surface; })) return false;
     KnownBlocker blocker = find(surface, from.center());
     if (!blocker || !covers(*blocker, way)) return way.isOpen;
     known.insert(known.begin(), std::move(blocker));

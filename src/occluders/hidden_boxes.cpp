@@ -89,7 +89,7 @@ std::vector<uint32_t> HiddenBoxes::visibleFrom(const Box3d& region, std::span<co
       visible.push_back(some);
       continue;
     }
-    const auto middle = std::lower_bound(some.begin(), some.end(), tree_.nodes[node.second].begin);
+    const auto middle = std::ranges::lower_bound(some, tree_.nodes[node.second].begin);
     all.push_back({index + 1, {some.begin(), middle}});
     all.push_back({node.second, {middle, some.end()}});
   }
@@ -125,8 +125,7 @@ std::vector<std::pair<KnownBlocker, size_t>> HiddenBoxes::blockersIn(const Regio
   if (hidden * step < tuning::HiddenBoxes::kLeastHidden ||
       static_cast<double>(hidden) < tuning::HiddenBoxes::kWorthHiding * static_cast<double>(probes))
     return {};
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.second > b.second; });
   return found;
 }
 

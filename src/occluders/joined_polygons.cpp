@@ -229,7 +229,7 @@ class JoinedPolygons::Joining {
       }
       return false;
     });
-    std::sort(ends.begin(), ends.end());
+    std::ranges::sort(ends);
     for (size_t k = 0; k + 1 < ends.size(); ++k) {
       if (!(ends[k + 1] - ends[k] > 4 * near)) continue;
       const V3d middle = edge.begin + .5 * (ends[k] + ends[k + 1]) * along;
@@ -323,7 +323,7 @@ void JoinedPolygons::sort() const {
     if (tracer_.stopsShadows(id, true) || tracer_.stopsShadows(id, false))
       polygons_.push_back({planeOf(*polygon, scene_.samePlace), id});
   }
-  std::sort(polygons_.begin(), polygons_.end(), [](const InPlane& a, const InPlane& b) {
+  std::ranges::sort(polygons_, [](const InPlane& a, const InPlane& b) {
     return a.plane != b.plane ? a.plane < b.plane : a.polygon.index() < b.polygon.index();
   });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/keep_largest.h"
 #include "openings/tuning.h"
 
 namespace rsphere {
@@ -40,20 +41,17 @@ std::vector<Wall> wallsOf(const Scene& scene, const Box3d& bounds, double leastA
       if (areaOf(*polygon, scene.vertices) >= leastArea && isWall(surface))
         polygons.emplace_back(planeOf(*polygon, scene.vertices[polygon->firstVertex] - bounds.min, size),
                               polygon);
-  std::stable_sort(polygons.begin(), polygons.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(polygons, {}, [](const auto& p) { return p.first; });
   std::vector<Wall> walls;
   for (size_t i = 0; i < polygons.size(); ++i) {
     if (i == 0 || polygons[i].first != polygons[i - 1].first) walls.emplace_back();
     walls.back().polygons.push_back(polygons[i].second);
     walls.back().area += areaOf(*polygons[i].second, scene.vertices);
   }
-  std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.area > b.area; });
-  if (walls.size() > tuning::Holes::kMostWalls) walls.resize(tuning::Holes::kMostWalls);
+  keepLargest(walls, tuning::Holes::kMostWalls, [](const Wall& wall) { return wall.area; });
   for (Wall& wall : walls)
-    std::stable_sort(wall.polygons.begin(), wall.polygons.end(), [&](const Polygon* a, const Polygon* b) {
-      return areaOf(*a, scene.vertices) > areaOf(*b, scene.vertices);
-    });
+    std::ranges::stable_sort(wall.polygons, std::greater(),
+                             [&](const Polygon* p) { return areaOf(*p, scene.vertices); });
   return walls;
 }
 
@@ -177,8 +175,7 @@ std::vector<Rectangle> holesOf(const Scene& scene, const Box3d& bounds, double l
     for (const Rectangle& hole : Coverage(scene, wall, r).holes())
       if (hole.area() >= leastArea) found.push_back(hole);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Rectangle& a, const Rectangle& b) { return a.area() > b.area(); });
+  std::ranges::stable_sort(found, [](const Rectangle& a, const Rectangle& b) { return a.area() > b.area(); });
   return found;
 }
 

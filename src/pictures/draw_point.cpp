@@ -398,7 +398,7 @@ V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays
 
 void Painter::refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster) {
   const std::vector<bool> marked = uneven(raster, curve);
-  const double all = std::max<double>(1, static_cast<double>(std::count(marked.begin(), marked.end(), true)));
+  const double all = std::max<double>(1, static_cast<double>(std::ranges::count(marked, true)));
   const RaysOfPixel none(curve, forScreen);
   int done = 0;
   for (int row = 0; row < map_.height(); ++row) {

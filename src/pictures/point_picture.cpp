@@ -106,7 +106,7 @@ ToneCurve::ToneCurve(const Raster& raster, const PixelMap& map, double white)
     lit.emplace_back(b, solidAngle);
     all += solidAngle;
   }
-  std::sort(lit.begin(), lit.end());
+  std::ranges::sort(lit);
   double median = 0;
   for (double sum = 0; const auto& [b, solidAngle] : lit) {
     median = b;

@@ -103,7 +103,7 @@ const PointQuantity* pointQuantity(char letter) {
 }
 
 bool haveErrors(std::string_view letters) {
-  return std::any_of(letters.begin(), letters.end(), [](char letter) {
+  return std::ranges::any_of(letters, [](char letter) {
     const PointQuantity* const quantity = pointQuantity(letter);
     return quantity && quantity->isError();
   });

@@ -42,8 +42,8 @@ PreparedScene::PreparedScene(const Scene& scene, std::shared_ptr<const Tracer> t
   warnOfMissingModifiers(scene, names, including ? "-ai" : "-ae", warn);
   ambient_.resize(scene.surfaces.size());
   for (const SurfaceId i : scene.surfaces.ids())
-    ambient_[i] = (std::find(names.begin(), names.end(), scene.modifierName(scene.surfaces[i])) !=
-                   names.end()) == including;
+    ambient_[i] =
+        (std::ranges::find(names, scene.modifierName(scene.surfaces[i])) != names.end()) == including;
 }
 
 bool isDark(const PreparedScene& prepared) {
@@ -62,7 +62,7 @@ bool isLitByLamps(const PreparedScene& prepared) {
   for (const LightSource& light : prepared.lights().all())
     if (light.isDistant()) return false;
   const auto& modifiers = prepared.scene().modifiers;
-  return std::none_of(modifiers.begin(), modifiers.end(), [](const Modifier& modifier) {
+  return std::ranges::none_of(modifiers, [](const Modifier& modifier) {
     const auto* material = std::get_if<Material>(&modifier.content);
     return material && std::holds_alternative<Glow>(*material);
   });

@@ -64,10 +64,10 @@ MistSources::MistSources(const Scene& scene, const LightSources& lights, const r
           warn(fmt::format("{}: unknown source \"{}\"", scene.place(m.primitive), rad::printable(name)));
         continue;
       }
-      auto found = std::find(all_.begin(), all_.end(), source);
+      auto found = std::ranges::find(all_, source);
       if (found == all_.end()) found = all_.insert(found, source);
       const auto position = static_cast<uint16_t>(found - all_.begin());
-      if (std::find(own.begin(), own.end(), position) == own.end()) own.push_back(position);
+      if (std::ranges::find(own, position) == own.end()) own.push_back(position);
     }
     if (all_.size() > UINT16_MAX)
       throw rad::Error(scene.place(m.primitive) + ": mists name more than 65535 light sources");

@@ -142,7 +142,7 @@ void checkNames(const ContributionOptions& options) {
 }  // namespace
 
 bool ContributionOptions::hasErrors() const {
-  return std::any_of(tracked.begin(), tracked.end(), [](const TrackedName& t) { return !t.errors.empty(); });
+  return std::ranges::any_of(tracked, [](const TrackedName& t) { return !t.errors.empty(); });
 }
 
 std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options) {

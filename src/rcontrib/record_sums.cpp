@@ -72,8 +72,8 @@ void RecordSums::writeRecord() {
     --skipped_;
   else
     outputs_.write(sums_, squares_);
-  std::fill(sums_.begin(), sums_.end(), 0);
-  std::fill(squares_.begin(), squares_.end(), 0);
+  std::ranges::fill(sums_, 0);
+  std::ranges::fill(squares_, 0);
   added_ = 0;
 }
 

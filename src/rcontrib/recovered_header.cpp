@@ -53,7 +53,7 @@ std::vector<std::string> commandIn(const std::vector<std::string>& header) {
 // The option, without its remark, in the first of the lines that is not among the others; empty if all are.
 std::string_view firstMissing(const std::vector<std::string>& lines, const std::vector<std::string>& others) {
   for (const std::string& line : lines)
-    if (std::find(others.begin(), others.end(), line) == others.end())
+    if (std::ranges::find(others, line) == others.end())
       return std::string_view(line).substr(0, line.find_last_not_of(" \t", line.find('#') - 1) + 1);
   return "";
 }
@@ -101,9 +101,7 @@ size_t recordsBeginIn(const std::string& file, std::string_view bytes, const Con
   if (options.header) {
     const size_t end = bytes.find("\n\n");
     const auto header = linesOf(bytes.substr(0, end == bytes.npos ? 0 : end));
-    const auto has = [&](const std::string& line) {
-      return std::find(header.begin(), header.end(), line) != header.end();
-    };
+    const auto has = [&](const std::string& line) { return std::ranges::find(header, line) != header.end(); };
     for (const std::string& line :
          linesOf(fmt::format("{}FORMAT={}", layout.lines, formatName(options.out, options.color))))
       if (!has(line)) refuse(file, fmt::format("its header lacks {}", line));

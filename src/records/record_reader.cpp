@@ -35,7 +35,7 @@ std::string systemText(std::string_view what) {
 }
 
 bool isText(std::string_view bytes) {
-  return std::all_of(bytes.begin(), bytes.end(), [](char c) { return isSpace(c) || rad::isPrintable(c); });
+  return std::ranges::all_of(bytes, [](char c) { return isSpace(c) || rad::isPrintable(c); });
 }
 
 std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }

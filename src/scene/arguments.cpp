@@ -75,7 +75,7 @@ std::string placeOf(const rad::Description& description, rad::PrimitiveId primit
 }
 
 Words transformAmong(std::span<const std::string_view> words) {
-  return Words(std::find_if(words.begin(), words.end(), beginsTransform), words.end());
+  return Words(std::ranges::find_if(words, beginsTransform), words.end());
 }
 
 Placement readPlacement(const PrimitiveArguments& arguments, std::span<const std::string_view> transform) {

@@ -196,8 +196,7 @@ class Builder {
     const auto [at, isNew] = numbers.try_emplace({place.file, name});
     if (isNew) {
       const std::string file = rad::nameOfFile(scene_.description, place, name, options_.files);
-      const auto known =
-          std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.file == file; });
+      const auto known = std::ranges::find_if(files, [&](const auto& f) { return f.file == file; });
       at->second = static_cast<uint32_t>(known - files.begin());
       if (known == files.end()) files.push_back({file, i});
     }

@@ -13,7 +13,7 @@ namespace rsphere {
 namespace {
 
 size_t positionOf(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 // The emission of a material; null if it is not a light source.

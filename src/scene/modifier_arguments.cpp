@@ -33,7 +33,7 @@ double numberOr(std::string_view expression, double otherwise) {
 }
 
 bool allAre(const Words& words, std::string_view word) {
-  return std::all_of(words.begin(), words.end(), [&](std::string_view w) { return w == word; });
+  return std::ranges::all_of(words, [&](std::string_view w) { return w == word; });
 }
 
 }  // namespace

@@ -34,10 +34,7 @@ std::vector<Sensor> movedApart(std::span<const Sensor> sensors, double side) {
 }
 
 Polygon squareOf(const Sensor& sensor, double side, std::vector<V3d>& vertices) {
-  V3d u, v;
-  frame(sensor.normal, u, v);
-  u *= side / 2;
-  v *= side / 2;
+  const auto [u, v] = frame(sensor.normal, side / 2);
   const auto first = static_cast<uint32_t>(vertices.size());
   for (const V3d& corner : {-u - v, u - v, u + v, v - u}) vertices.push_back(sensor.point + corner);
   Polygon square = makePolygon(vertices, first, 4);

@@ -5,8 +5,7 @@
 namespace rsphere {
 
 PrimitiveId SurfaceList::primitiveOf(SurfaceId id) const {
-  const auto after = std::upper_bound(runs_.begin(), runs_.end(), id,
-                                      [](SurfaceId i, const Run& run) { return i < run.surface; });
+  const auto after = std::ranges::upper_bound(runs_, id, std::less(), &Run::surface);
   const Run& run = *std::prev(after);
   return PrimitiveId(run.primitive.index() + id.index() - run.surface.index());
 }

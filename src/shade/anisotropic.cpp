@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/constants.h"
 
@@ -104,7 +105,7 @@ Tangents tangents(const V3d& normal, const V3d& direction) {
   // The direction is 0 or, within rounding, parallel to the normal.
   if (!(length > 1e-12 * direction.length())) {
     t.given = false;
-    frame(normal, t.along, t.across);
+    std::tie(t.along, t.across) = frame(normal);
     return t;
   }
   t.across /= length;

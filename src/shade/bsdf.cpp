@@ -88,7 +88,7 @@ struct Rings {
   }
 
   const Ring& ringOf(size_t cell) const {
-    return *std::find_if(rings.begin(), rings.end(), [&](const Ring& r) { return cell < r.first + r.cells; });
+    return *std::ranges::find_if(rings, [&](const Ring& r) { return cell < r.first + r.cells; });
   }
 
   // The cell of a direction; empty beyond the last ring.
@@ -208,10 +208,10 @@ class MatrixScattering final : public DirectedScattering {
     size_t sample(size_t row, double& u) const {
       const auto sums = std::span(sums_).subspan(row * cells_, cells_);
       const double target = u * sums.back();
-      auto found = static_cast<size_t>(std::upper_bound(sums.begin(), sums.end(), target) - sums.begin());
+      auto found = static_cast<size_t>(std::ranges::upper_bound(sums, target) - sums.begin());
       // Rounding may select a cell after the last one that is not black.
       if (found == cells_)
-        found = static_cast<size_t>(std::lower_bound(sums.begin(), sums.end(), sums.back()) - sums.begin());
+        found = static_cast<size_t>(std::ranges::lower_bound(sums, sums.back()) - sums.begin());
       const double before = found == 0 ? 0 : sums[found - 1];
       u = std::clamp((target - before) / (sums[found] - before), 0., kBelowOne);
       return found;
@@ -411,7 +411,7 @@ class Means {
 
   void average(const std::array<Reference, 4>& parts, uint32_t into) {
     const auto constant = [&](const Reference& r) { return r.node == 0 || nodes_[r.node].children == 0; };
-    if (std::all_of(parts.begin(), parts.end(), constant)) {
+    if (std::ranges::all_of(parts, constant)) {
       Node& n = nodes_[into];
       double sum = 0;
       n.coarsest = UINT8_MAX;
@@ -667,8 +667,7 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
       if ((near == 0 || near == far) && !(near == 4)) probe(i, j);
     }
   const auto found = std::span(probes).first(count);
-  std::sort(found.begin(), found.end(),
-            [](const Probe& a, const Probe& b) { return a.luminance > b.luminance; });
+  std::ranges::sort(found, [](const Probe& a, const Probe& b) { return a.luminance > b.luminance; });
 
   constexpr double kSizeOfPeak = 1.5, kHeightOfPeak = 8, kLeastAround = .2, kLeastPeak = .0005;
   if (found[0].luminance <= kNegligible ||

@@ -376,7 +376,7 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   Bytes bytes(path);
   const Header header = readHeader(bytes);
   const auto [first, last] = header.wavelengths;
-  if (std::any_of(header.formats.begin(), header.formats.end(), [](auto& f) { return f != kSpectra; }))
+  if (std::ranges::any_of(header.formats, [](auto& f) { return f != kSpectra; }))
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
   constexpr int kLeastComponents = 4;  // three components are red, green and blue, which are read by
                                        // colorpict
@@ -412,7 +412,7 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
 void SpectralPicture::value(double x, double y, std::span<double> spectrum) const {
   const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
   const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
-  std::fill(spectrum.begin(), spectrum.end(), 0.);
+  std::ranges::fill(spectrum, 0.);
   const auto add = [&](size_t row, size_t column, double weight) {
     if (std::abs(weight) <= 1e-6) return;
     const uint8_t* const pixel = &pixels_[(row * width_ + column) * (components_ + 1)];

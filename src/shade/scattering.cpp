@@ -114,8 +114,7 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
 }  // namespace
 
 V3d diffuseDirection(const V3d& normal, double u1, double u2) {
-  V3d x, y;
-  frame(normal, x, y);
+  const auto [x, y] = frame(normal);
   const double radius = std::sqrt(u1), angle = 2 * kPi * u2;
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y + std::sqrt(1 - u1) * normal;
 }
@@ -315,8 +314,7 @@ double lobeRadius(double alpha2, double spread, double u) {
 
 double sampleReflection(const Scattering& s, const Interaction& at, double spread, double u1, double u2,
                         V3d& direction) {
-  V3d x, y;
-  frame(s.normal, x, y);
+  const auto [x, y] = frame(s.normal);
   const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
   const V3d half = s.normal + radius * (std::cos(angle) * x + std::sin(angle) * y);
   // The mirror image of a unit vector has unit length.
@@ -335,8 +333,7 @@ double reflectedDensity(const Scattering& s, const Interaction& at, const V3d& d
 
 double sampleTransmission(const Scattering& s, const Interaction& at, double spread, double u1, double u2,
                           V3d& direction) {
-  V3d x, y;
-  frame(s.normal, x, y);
+  const auto [x, y] = frame(s.normal);
   const double radius = lobeRadius(s.alpha2, spread, u2), angle = 2 * kPi * u1;
   direction = s.transmitted + radius * (std::cos(angle) * x + std::sin(angle) * y);
   if (direction.dot(at.normal) >= -kNegligible) return 0;

@@ -44,7 +44,7 @@ std::string folderProblem(std::string_view name, std::string_view kind) {
 
 // Coordinates that are NaN are an error. Infinite ones are allowed: data are 0 there.
 void checkCoordinates(std::span<const double> coordinates, calc::State& state) {
-  if (std::any_of(coordinates.begin(), coordinates.end(), [](double c) { return std::isnan(c); }))
+  if (std::ranges::any_of(coordinates, [](double c) { return std::isnan(c); }))
     state.faults |= calc::kDomainError;
 }
 
@@ -532,7 +532,7 @@ void SurfaceFunctions::warn(ModifierId modifier, std::string_view problem) const
 bool SurfaceFunctions::computed(ModifierId modifier, const FunctionScratch& scratch,
                                 std::span<const double> values) const {
   const auto isFinite = [](double value) { return std::isfinite(value); };
-  if (scratch.state.faults == 0 && std::all_of(values.begin(), values.end(), isFinite)) return true;
+  if (scratch.state.faults == 0 && std::ranges::all_of(values, isFinite)) return true;
   if (!ready(modifier).warned)
     warn(modifier,
          fmt::format("compute error: {}: ignored at such points; the function can exclude them with if()",

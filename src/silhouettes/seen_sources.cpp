@@ -130,7 +130,7 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
     if (!material || !planeNormal(surface.shape) || !(sharpReflectance(*material) > 0)) continue;
     mirrors.push_back({-outlinedArea(surface.shape, scene.vertices), i});
   }
-  std::sort(mirrors.begin(), mirrors.end());
+  std::ranges::sort(mirrors);
   for (const auto& [area, surface] : mirrors)
     if ((mirrors_.size() + 1) * sources_.size() <= tuning::SpecialObjects::kMostPlacedObjects)
       mirrors_.push_back(surface);
@@ -139,15 +139,14 @@ SeenSources::SeenSources(const PreparedScene& prepared) : prepared_(prepared) {
 bool SeenSources::isOne(const ShownSource& s, const std::vector<Image>& images) const {
   if (s.source == kNone || !apart_[s.source]) return false;
   const auto& lights = prepared_.lights().all();
-  return s.mirror == kNone || std::any_of(images.begin(), images.end(), [&](const Image& image) {
+  return s.mirror == kNone || std::ranges::any_of(images, [&](const Image& image) {
            return image.mirror == s.mirror && lights[image.source].surface == s.source;
          });
 }
 
 bool SeenSources::isOneStraight(const ShownSource& s, const std::vector<Image>& images) const {
   const auto& lights = prepared_.lights().all();
-  return s.source != kNone && s.mirror == kNone &&
-         std::any_of(images.begin(), images.end(), [&](const Image& image) {
+  return s.source != kNone && s.mirror == kNone && std::ranges::any_of(images, [&](const Image& image) {
            return image.mirror == kNone && lights[image.source].surface == s.source;
          });
 }
@@ -158,7 +157,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   const Scene& scene = prepared_.scene();
   const std::span<const uint32_t> notHidden = prepared_.lights().hidden().notHiddenFrom(point);
   for (const LightId i : sources_) {
-    if (!std::binary_search(notHidden.begin(), notHidden.end(), i.index())) continue;
+    if (!std::ranges::binary_search(notHidden, i.index())) continue;
     const Surface& surface = scene.surfaces[prepared_.lights().all()[i].surface];
     if (emitsBehind(surface.shape, point)) continue;
     Image image;

@@ -41,8 +41,7 @@ double largestReentrance(const std::vector<V3d>& corners, const std::vector<V3d>
 
 // Adds the corners of a regular polygon whose sides touch a circle (world) from outside.
 void addCircle(std::vector<V3d>& corners, const V3d& center, const V3d& axis, double radius) {
-  V3d x, y;
-  frame(axis, x, y);
+  const auto [x, y] = frame(axis);
   const double around = radius / std::cos(pi / tuning::Silhouettes::kCorners) * (1 + kRounding);
   for (int i = 0; i < tuning::Silhouettes::kCorners; ++i) {
     const double angle = 2 * pi * i / tuning::Silhouettes::kCorners;
@@ -119,7 +118,7 @@ bool Silhouette::setConvex(std::span<const V3d> corners, const V3d& point) {
   slack_ = outside + 2 * kRounding / std::max(1 - cap_.versine, 1e-7);
   regionSolidAngle_ = std::abs(sum);
   return corners_.size() == corners.size() && cap_.versine > kTiny && outside <= 100 * kRounding &&
-         sum != 0 && std::is_sorted(shares_.begin(), shares_.end());
+         sum != 0 && std::ranges::is_sorted(shares_);
 }
 
 void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertices, const V3d& point) {
@@ -138,11 +137,11 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
 // Sets the region to the convex hull of points (Andrew's monotone chain, on the plane perpendicular to their
 // mean direction). False if they extend beyond kWidestHull.
 bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
-  V3d middle(0, 0, 0), x, y;
+  V3d middle(0, 0, 0);
   for (const V3d& p : points) middle += p - point;
   if (!(middle.length() > 0)) return false;
   middle.normalize();
-  frame(middle, x, y);
+  const auto [x, y] = frame(middle);
   struct Seen {
     double x, y;
     size_t index;
@@ -154,8 +153,8 @@ bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
     if (!(depth > std::cos(tuning::Silhouettes::kWidestHull) * towards.length())) return false;
     seen.push_back({towards.dot(x) / depth, towards.dot(y) / depth, i});
   }
-  std::sort(seen.begin(), seen.end(),
-            [](const Seen& a, const Seen& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::ranges::sort(seen,
+                    [](const Seen& a, const Seen& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   const auto turn = [](const Seen& a, const Seen& b, const Seen& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   };
@@ -201,8 +200,7 @@ Silhouette Silhouette::within(const Silhouette& other) const {
 bool Silhouette::contains(const V3d& direction) const {
   if (corners_.empty())
     return regionSolidAngle_ > 0 && (direction - cap_.axis).length2() <= cap_.squaredChord;
-  return std::all_of(sides_.begin(), sides_.end(),
-                     [&](const V3d& side) { return side.dot(direction) >= -slack_; });
+  return std::ranges::all_of(sides_, [&](const V3d& side) { return side.dot(direction) >= -slack_; });
 }
 
 Silhouette::Cap Silhouette::surroundingCap() const {
@@ -217,8 +215,7 @@ V3d Silhouette::sample(double u1, double u2) const {
   if (corners_.empty()) {
     const double v = u1 * cap_.versine;
     const double sine = std::sqrt(v * (2 - v)), angle = 2 * pi * u2;
-    V3d x, y;
-    frame(cap_.axis, x, y);
+    const auto [x, y] = frame(cap_.axis);
     return (sine * (std::cos(angle) * x + std::sin(angle) * y) + (1 - v) * cap_.axis).normalized();
   }
   const double at = u1 * regionSolidAngle_;

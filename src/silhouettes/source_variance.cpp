@@ -18,8 +18,8 @@ Variance partsVariance(std::span<const SeenSources::Sample> samples, const Spect
     edges += Variance::of(irradianceFrom(s.direction.value, s.part), sampling) *
              (tuning::ErrorEstimate::kEvenParts * clear * (1 - clear) / s.aimed);
   }
-  const size_t columns = static_cast<size_t>(std::count_if(
-      samples.begin(), samples.end(), [&](const auto& s) { return s.row == samples.front().row; }));
+  const size_t columns = static_cast<size_t>(
+      std::ranges::count_if(samples, [&](const auto& s) { return s.row == samples.front().row; }));
   const auto add = [&](size_t i, size_t k) {
     ++pairs;
     // Differences due to visibility are excluded, because shadow rays have measured them.

@@ -79,12 +79,12 @@ void orderForBuild(std::span<const Site> sites, OrderScratch& scratch, std::vect
   constexpr std::size_t kSample = 64;
   auto& reordered = scratch.order;
   reordered.clear();
-  std::sort(extreme.begin(), extreme.end());
+  std::ranges::sort(extreme);
   reordered.insert(reordered.end(), extreme.begin(), std::unique(extreme.begin(), extreme.end()));
   for (const bool sample : {true, false}) {
     for (std::size_t k = 0; k < order.size(); ++k) {
       if ((k % kSample == 0) != sample) continue;
-      if (std::find(extreme.begin(), extreme.end(), order[k]) == extreme.end()) reordered.push_back(order[k]);
+      if (std::ranges::find(extreme, order[k]) == extreme.end()) reordered.push_back(order[k]);
     }
   }
   order.swap(reordered);

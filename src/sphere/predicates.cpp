@@ -113,7 +113,7 @@ int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
   std::array<int, 4> order;
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
+  std::ranges::sort(order, [&](int i, int j) {
     const V3d &s = *row[i], &t = *row[j];
     return s.x != t.x ? s.x > t.x : s.y != t.y ? s.y > t.y : s.z > t.z;
   });

@@ -52,7 +52,7 @@ void Triangulation::build(std::span<const Site> sites, OrderScratch& scratch) {
   few.clear();
   for (std::size_t k = 0; k < order.size() && few.size() < 4; ++k) {
     const auto isSame = [&](std::uint32_t f) { return sites[f].at == sites[order[k]].at; };
-    if (std::none_of(few.begin(), few.end(), isSame)) {
+    if (std::ranges::none_of(few, isSame)) {
       std::swap(order[few.size()], order[k]);
       few.push_back(order[few.size()]);
     }
@@ -241,14 +241,14 @@ BaseTriangulation::BaseTriangulation(std::span<const V3d> directions) {
     std::vector<std::uint32_t> all(delaunay.triangles.size());
     std::iota(all.begin(), all.end(), 0);
     // Free slots have no corners, so they are replaced by some other triangle.
-    const auto used = std::find_if(all.begin(), all.end(),
-                                   [&](std::uint32_t t) { return delaunay.triangles[t].corner[0] != kNone; });
+    const auto used =
+        std::ranges::find_if(all, [&](std::uint32_t t) { return delaunay.triangles[t].corner[0] != kNone; });
     for (std::uint32_t t : delaunay.unused) all[t] = *used;
     data->kites.resize(all.size());
     data->wide.resize(all.size());
     computeKites(delaunay, all, data->kites, data->wide);
     data->anyUnused = !delaunay.unused.empty();
-    data->anyWide = std::find(data->wide.begin(), data->wide.end(), 1) != data->wide.end();
+    data->anyWide = std::ranges::find(data->wide, 1) != data->wide.end();
   }
   data_ = std::move(data);
 }

@@ -18,8 +18,7 @@ namespace {
 constexpr float kNarrowest = 1e-6f;
 
 V3d onDisk(const V3d& normal, double radius, double angle) {
-  V3d x, y;
-  frame(normal, x, y);
+  const auto [x, y] = frame(normal);
   return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
 }
 
@@ -46,7 +45,7 @@ struct BrightSpots::Node {
   Node(std::span<Particle> some, double same) : particles(some), samePlace(same) {
     for (const Particle& p : some) box.extendBy(p.point);
     std::array<double, 3> sides{box.size().x, box.size().y, box.size().z};
-    std::sort(sides.begin(), sides.end());
+    std::ranges::sort(sides);
     area = std::max(sides[1], samePlace) * std::max(sides[2], samePlace);
     spot.center = box.center();
     spot.radius = std::max(.5 * tuning::BrightSpots::kWider * box.size().length(), 4 * samePlace);
@@ -214,8 +213,8 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
   }
   std::vector<const Branch*> chosen{&tree.front()};
   while (spots_.count + chosen.size() < most) {
-    const auto best = std::max_element(
-        chosen.begin(), chosen.end(), [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
+    const auto best = std::ranges::max_element(
+        chosen, [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
     if (!((*best)->gain() > 0)) break;
     const Branch* halves = &tree[(*best)->halves];
     *best = halves;

@@ -31,12 +31,7 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   const double cosine = std::max(normal.dot(in), tuning::Highlights::kEdgeOn);
   // The tangents across the plane of incidence and in it.
   V3d across = normal.cross(in);
-  if (across.length2() > 1e-12) {
-    across.normalize();
-  } else {
-    V3d other;
-    frame(normal, across, other);
-  }
+  across = across.length2() > 1e-12 ? across.normalized() : frame(normal).first;
   const V3d along = across.cross(normal);
   // Twice the covariance of the difference between the normal and the bisector, over the roughness and over
   // all points of the source.

@@ -41,8 +41,7 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
       if (const auto* distant = scene.surfaces[sender.surface].shape.as<Distant>()) {
         const double radius = reach * std::sqrt(random.uniform()), angle = 2 * kPi * random.uniform();
         direction = -distant->direction;
-        V3d x, y;
-        frame(direction, x, y);
+        const auto [x, y] = frame(direction);
         origin = middle + radius * std::cos(angle) * x + radius * std::sin(angle) * y - 2 * reach * direction;
       } else {
         const SurfacePoint at = samplePoint(scene.surfaces[sender.surface].shape, scene.vertices, random);

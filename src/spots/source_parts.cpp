@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/constants.h"
 #include "base/frame.h"
@@ -25,9 +26,7 @@ std::vector<SourcePart> partsOf(const LightSource& source, const V3d& from) {
   bool isRound = false;
   const auto setRound = [&](double radius) {
     isRound = true;
-    frame(way / distance, whole.u, whole.v);
-    whole.u *= radius;
-    whole.v *= radius;
+    std::tie(whole.u, whole.v) = frame(way / distance, radius);
   };
   match(
       source.shape,

@@ -175,7 +175,7 @@ std::vector<V3d> cornersOf(const Box3d& box) {
 }
 
 bool isVisible(const Tracer& tracer, const BrightSpots::Sunlit& spot, const V3d& point) {
-  return std::any_of(spot.places.begin(), spot.places.end(), [&](const V3d& place) {
+  return std::ranges::any_of(spot.places, [&](const V3d& place) {
     const V3d way = place - point;
     const double distance = way.length();
     return way.dot(spot.normal) < 0 && tracer.shadow(point, way / distance, distance * (1 - kEnd), kNone,

@@ -35,11 +35,7 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   const V3d away = source.isDistant() ? source.center : source.center - ball.center;
   const double distance = std::max(away.length() - ball.radius, scene.samePlace);
   V3d u(0, 0, 0), v(0, 0, 0);
-  const auto setRound = [&](const V3d& axis, double radius) {
-    frame(axis, u, v);
-    u *= radius;
-    v *= radius;
-  };
+  const auto setRound = [&](const V3d& axis, double radius) { std::tie(u, v) = frame(axis, radius); };
   match(
       source.shape,
       [&](const PlaneLight& flat) {

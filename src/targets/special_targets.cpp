@@ -11,7 +11,7 @@ bool liesIn(const Scene& scene, const SpecialObject& object, const Rectangle& pl
   if (!polygon) return false;
   const double slack = 1e-6 * (place.width + place.height);
   const auto corners = verticesOf(scene, object).subspan(polygon->firstVertex, polygon->vertices);
-  return std::all_of(corners.begin(), corners.end(), [&](const V3d& corner) {
+  return std::ranges::all_of(corners, [&](const V3d& corner) {
     const V3d from = corner - place.corner;
     const double u = from.dot(place.x), v = from.dot(place.y);
     return std::abs(from.dot(place.normal)) < slack && u > -slack && u < place.width + slack && v > -slack &&

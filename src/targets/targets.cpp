@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/keep_largest.h"
 #include "base/random.h"
 #include "openings/tuning.h"
 #include "targets/tuning.h"
@@ -28,14 +29,12 @@ bool overlap(const Silhouette& a, const Silhouette& b) {
 // outside the overlap, the cells in the overlap would have to represent the solid angles of both targets.
 void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   std::vector<Target*> chosen, large;
-  const auto expected = [&](const Target& target) {
-    return target.silhouette.regionSolidAngle() * (baseDensity + target.density);
+  const auto expected = [&](const Target* target) {
+    return target->silhouette.regionSolidAngle() * (baseDensity + target->density);
   };
   for (Target& target : targets)
-    if (expected(target) > tuning::Targets::kFewestFitted) large.push_back(&target);
-  std::ranges::stable_sort(large,
-                           [&](const Target* a, const Target* b) { return expected(*a) > expected(*b); });
-  if (large.size() > tuning::Caps::kAsked) large.resize(tuning::Caps::kAsked);
+    if (expected(&target) > tuning::Targets::kFewestFitted) large.push_back(&target);
+  keepLargest(large, tuning::Caps::kAsked, expected);
   for (Target* target : large) {
     target->fitted = std::ranges::none_of(
         chosen, [&](const Target* other) { return overlap(target->silhouette, other->silhouette); });

@@ -43,8 +43,7 @@ int raysOfRecord(const RayOptions& o, LitBy by) {
 GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, site.normal);
   const Root root(t_, site, depth_);
-  V3d x, y;
-  frame(site.normal, x, y);
+  const auto [x, y] = frame(site.normal);
   const LitBy by = path.settings.caches.byLamps        ? LitBy::lamps
                    : path.settings.aims.of<Openings>() ? LitBy::openings
                                                        : LitBy::other;
@@ -106,8 +105,7 @@ Surroundings TracedFieldRays::surroundings(const GatherSite& site) {
       of[i] = cells.direction(i, .5, .5, V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1));
     return of;
   }();
-  V3d x, y;
-  frame(site.normal, x, y);
+  const auto [x, y] = frame(site.normal);
   double inverse = 0, squares = 0, hits = 0;
   for (const V3d& d : directions) {
     const Hit hit = t_.tracer().nearest(site.point, d.x * x + d.y * y + d.z * site.normal);

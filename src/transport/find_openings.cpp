@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/even_sequence.h"
+#include "base/keep_largest.h"
 #include "openings/holes.h"
 #include "openings/panes.h"
 #include "openings/tuning.h"
@@ -141,7 +142,7 @@ std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
 // Whether a hole differs from all openings found so far. A thick wall has two faces, each with a hole for one
 // opening.
 bool isNewPlace(const Opening& hole, std::span<const Opening> openings) {
-  return std::none_of(openings.begin(), openings.end(), [&](const Opening& o) {
+  return std::ranges::none_of(openings, [&](const Opening& o) {
     return std::abs(o.normal.dot(hole.normal)) > tuning::Openings::kParallel &&
            (o.at(.5, .5) - hole.at(.5, .5)).length() <
                tuning::Openings::kSameHole * std::min({o.width, o.height, hole.width, hole.height});
@@ -196,9 +197,7 @@ std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
   std::vector<Opening> asked = panesOf(prepared, tuning::Openings::kLeastArea * face);
   const std::vector<Opening> doors = doorsOf(prepared, tuning::Openings::kLeastArea * face);
   asked.insert(asked.end(), doors.begin(), doors.end());
-  std::stable_sort(asked.begin(), asked.end(),
-                   [](const Opening& a, const Opening& b) { return a.area() > b.area(); });
-  if (asked.size() > tuning::Caps::kAsked) asked.resize(tuning::Caps::kAsked);
+  keepLargest(asked, tuning::Caps::kAsked, [](const Opening& o) { return o.area(); });
   return asked;
 }
 
@@ -234,9 +233,7 @@ Openings findOpenings(const PreparedScene& prepared) {
   }
   merge(found);
   for (Opening& opening : found) opening.radiance = opening.power / opening.filled;
-  const auto byPower = [](const Opening& a, const Opening& b) { return a.power > b.power; };
-  std::stable_sort(found.begin(), found.end(), byPower);
-  if (found.size() > tuning::Caps::kAimed) found.resize(tuning::Caps::kAimed);
+  keepLargest(found, tuning::Caps::kAimed, [](const Opening& o) { return o.power; });
   return {std::move(found), inside, depth};
 }
 

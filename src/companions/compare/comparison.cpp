@@ -133,11 +133,10 @@ ChannelComparison compareChannel(const Values& ours, const Values& original, siz
   c.noiseRms = std::sqrt(noise / n);
   c.ourNoise = std::sqrt(ourNoise / n);
   c.originalNoise = std::sqrt(originalNoise / n);
-  std::sort(sizes.begin(), sizes.end());
+  std::ranges::sort(sizes);
   for (size_t k = 0; k < kPercentiles.size(); ++k)
     c.percentiles[k] = sizes[static_cast<size_t>(std::lround(kPercentiles[k] * (n - 1)))];
-  c.shareWithin =
-      static_cast<double>(std::upper_bound(sizes.begin(), sizes.end(), tolerance) - sizes.begin()) / n;
+  c.shareWithin = static_cast<double>(std::ranges::upper_bound(sizes, tolerance) - sizes.begin()) / n;
 
   const double room = tolerance + 2 * kRounding - std::abs(c.bias);
   if (certain(std::abs(c.bias) - tolerance, c.biasError, error.degrees, tests) ||
@@ -188,8 +187,7 @@ Comparison compare(const Answers& ours, const Answers& original, double toleranc
   };
   comparison.worst.resize(ours.records);
   std::iota(comparison.worst.begin(), comparison.worst.end(), 0);
-  std::stable_sort(comparison.worst.begin(), comparison.worst.end(),
-                   [&](size_t a, size_t b) { return excess(a) > excess(b); });
+  std::ranges::stable_sort(comparison.worst, [&](size_t a, size_t b) { return excess(a) > excess(b); });
   return comparison;
 }
 

@@ -82,7 +82,7 @@ std::vector<std::string> originalOptions(const Options& options, std::span<const
   for (const UsedOption& option : used) {
     const OptionEntry& entry = *option.entry;
     const auto isOneOf = [&](std::initializer_list<std::string_view> names) {
-      return std::find(names.begin(), names.end(), entry.name) != names.end();
+      return std::ranges::find(names, entry.name) != names.end();
     };
     bool pass = false;
     switch (entry.group) {

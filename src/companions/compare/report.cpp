@@ -104,8 +104,7 @@ std::vector<DifferenceClass> differenceClasses(std::span<const RecordDifference>
     classes[k].within = k > 0 && k < kEdges.size() && kEdges[k - 1] >= -1 && kEdges[k] <= 1;
   }
   for (const RecordDifference& r : records)
-    ++classes[static_cast<size_t>(std::lower_bound(kEdges.begin(), kEdges.end(), r.difference / unit) -
-                                  kEdges.begin())]
+    ++classes[static_cast<size_t>(std::ranges::lower_bound(kEdges, r.difference / unit) - kEdges.begin())]
           .records;
   return classes;
 }

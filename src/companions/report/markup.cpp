@@ -80,7 +80,7 @@ std::string shellWord(std::string_view word) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("-_./,:=@%+").find(c) != std::string_view::npos;
   };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), ordinary)) return std::string(word);
+  if (!word.empty() && std::ranges::all_of(word, ordinary)) return std::string(word);
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
   return out + '\'';

@@ -192,7 +192,7 @@ void requireSvgName(std::string_view option, const std::string& name, std::strin
   std::string ending = name.substr(dot);
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end())
+  if (std::ranges::find(kOthers, ending) != kOthers.end())
     throw rad::Error(fmt::format("{} \"{}\": {} is an SVG file; use the name {}.svg", option, name, what,
                                  name.substr(0, dot)));
 }

@@ -38,7 +38,7 @@ Reference::Reference(const RepeatedAnswers& answers) : repeats_(answers.repeats(
 }
 
 bool Reference::isDark() const {
-  return std::all_of(means_.begin(), means_.end(), [](double mean) { return mean == 0; });
+  return std::ranges::all_of(means_, [](double mean) { return mean == 0; });
 }
 
 Figures figuresOf(const Trial& trial, const Reference& reference) {
@@ -79,7 +79,7 @@ Figures figuresOf(const Trial& trial, const Reference& reference) {
 
 void markBest(std::vector<Figures>& all) {
   for (Figures& one : all)
-    one.best = std::none_of(all.begin(), all.end(), [&](const Figures& other) {
+    one.best = std::ranges::none_of(all, [&](const Figures& other) {
       return other.seconds <= one.seconds && other.rms <= one.rms &&
              (other.seconds < one.seconds || other.rms < one.rms);
     });
@@ -94,8 +94,7 @@ std::optional<size_t> cheapest(std::span<const Figures> all, double accuracy) {
 
 Recommendation recommend(std::span<const Figures> all, double accuracy) {
   if (const auto found = cheapest(all, accuracy)) return {*found, true};
-  const auto nearest = std::min_element(all.begin(), all.end(),
-                                        [](const Figures& a, const Figures& b) { return a.rms < b.rms; });
+  const auto nearest = std::ranges::min_element(all, {}, &Figures::rms);
   return {static_cast<size_t>(nearest - all.begin()), false};
 }
 

@@ -37,9 +37,9 @@ constexpr Series kSeries[] = {{"equal weights (-Sw h)", "#888888"},
                               {"rays, as -ad and -as say", "#7570b3"}};
 
 size_t seriesOf(const Figures& f, bool rays) {
-  if (std::find(f.words.begin(), f.words.end(), "-Sa") != f.words.end()) return 3;
+  if (std::ranges::find(f.words, "-Sa") != f.words.end()) return 3;
   if (rays) return 4;
-  const auto weights = std::find(f.words.begin(), f.words.end(), "-Sw");
+  const auto weights = std::ranges::find(f.words, "-Sw");
   if (weights == f.words.end() || weights + 1 == f.words.end()) return 2;
   return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
 }
@@ -69,11 +69,11 @@ std::string tradeTable(std::span<const Figures> all) {
   text +=
       "* nothing is as fast and as accurate   95% sure: the rms error is below this   says: the error that "
       "the setting estimates itself\n";
-  if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.limited; }))
+  if (std::ranges::any_of(all, [](const Figures& f) { return f.limited; }))
     text += "~ the reference is not good enough to tell (-Te)\n";
-  if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return f.biased; }))
+  if (std::ranges::any_of(all, [](const Figures& f) { return f.biased; }))
     text += "b a bias that is certain (99%)\n";
-  if (std::any_of(all.begin(), all.end(), [](const Figures& f) { return dishonesty(f) >= kDishonest; }))
+  if (std::ranges::any_of(all, [](const Figures& f) { return dishonesty(f) >= kDishonest; }))
     text += "! the error is more than half again as large as the setting says\n";
   return text;
 }
@@ -100,7 +100,7 @@ std::string tradePlot(std::span<const Figures> all, const TradeSubject& subject)
   const auto pointOf = [](const Figures& f) { return PlotPoint{1e3 * f.seconds, 100 * f.rms}; };
   const auto isDrawn = [](const Figures& f) { return f.rms > 0 && f.seconds > 0; };
   std::vector<Figures> drawn;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(drawn), isDrawn);
+  std::ranges::copy_if(all, std::back_inserter(drawn), isDrawn);
   const std::string title =
       fmt::format("{}: {} points", subject.scene, subject.points.size() / subject.perPoint);
   if (drawn.empty()) return barsSvg(title + ": no setting has both an error and a time", {});

@@ -200,7 +200,7 @@ std::string Trade::pasteLine(std::span<const std::string> words) const {
   for (const UsedOption& option : used_) {
     const std::string_view name = option.entry->name;
     if (option.entry->group == Group::companion || name == "-Sa" || name == "-t" ||
-        std::find(words.begin(), words.end(), name) != words.end())
+        std::ranges::find(words, name) != words.end())
       continue;
     line.insert(line.end(), option.words.begin(), option.words.end());
   }
@@ -351,8 +351,8 @@ void runTrade(const TradeOptions& options, std::span<const UsedOption> used, con
               StopSignals& signals) {
   if (options.scene.size() < 2)
     throw rad::Error("missing argument: a scene and a file of points are needed; see -help");
-  const bool bounces = std::any_of(used.begin(), used.end(),
-                                   [](const UsedOption& option) { return option.entry->name == "-ab"; });
+  const bool bounces =
+      std::ranges::any_of(used, [](const UsedOption& option) { return option.entry->name == "-ab"; });
   if (!options.sphereMode && !bounces)
     throw rad::Error("-S-: needs -ab, because the settings of rays are compared with equal bounces");
   if (options.sphere.glare.wanted) throw rad::Error("-Su: the errors of glare are stated by -oUVBG");

@@ -28,8 +28,7 @@ double samplingSigmas(const V3d& middle, double widest, uint64_t seed, const Dra
                       const Density& density) {
   constexpr int kRows = 40, kColumns = 24, kFine = 24;
   std::vector<double> counts(kRows * kColumns + 1, 0.), expected(kRows * kColumns + 1, 0.);
-  V3d x, y;
-  frame(middle, x, y);
+  const auto [x, y] = frame(middle);
   const auto cellOf = [&](const V3d& d) {
     const double c = std::sqrt(std::max(0., (1 - d.dot(middle)) / 2));
     if (c >= widest) return kRows * kColumns;

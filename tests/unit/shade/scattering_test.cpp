@@ -404,8 +404,7 @@ TEST(Frame, IsOrthonormalAndRightHanded) {
   Random random(28);
   for (int i = 0; i < 1000; ++i) {
     const V3d z = i < 2 ? V3d(0, 0, i ? 1 : -1) : randomDirection(random);
-    V3d x, y;
-    frame(z, x, y);
+    const auto [x, y] = frame(z);
     EXPECT_NEAR(x.length(), 1, 1e-14);
     EXPECT_NEAR(y.length(), 1, 1e-14);
     EXPECT_NEAR((x.cross(y) - z).length(), 0, 1e-14);

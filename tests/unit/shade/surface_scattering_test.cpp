@@ -56,8 +56,7 @@ template <ScattersLight S>
 double byDirectLight(const S& s, Component component, const V3d& middle, double widest) {
   constexpr int kRows = 200, kColumns = 200;
   Random random(5);
-  V3d x, y;
-  frame(middle, x, y);
+  const auto [x, y] = frame(middle);
   double sum = 0;
   for (int row = 0; row < kRows; ++row) {
     const double c = widest * (row + .5) / kRows;

@@ -38,7 +38,7 @@ class ToDisk {
   ToDisk(const V3d& point, const V3d& center, double radius) : middle_((center - point).normalized()) {
     const double sine = std::min(1., radius / (center - point).length());
     versine_ = 1 - std::sqrt(1 - sine * sine);
-    frame(middle_, x_, y_);
+    std::tie(x_, y_) = frame(middle_);
   }
   V3d sample(Random& random) const {
     const double z = 1 - versine_ * random.uniform(), angle = 2 * std::numbers::pi * random.uniform();
@@ -66,8 +66,7 @@ TEST(BallHighlights, AreAimedAtAsDensitySays) {
       highlights.aim(point, disk.middle(), 0, aim);
       ASSERT_GT(aim.mean, 0) << text;
       Random random(1);
-      V3d x, y;
-      frame(disk.middle(), x, y);
+      const auto [x, y] = frame(disk.middle());
       const double wide = .1 / (kCenter - point).length();
       const auto some = [&](const V3d& d) { return 2 + (d.dot(x) + .5 * d.dot(y)) / wide; };
       for (int i = 0; i < 6000; ++i) {

@@ -86,8 +86,7 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
     const double versine = .1;
     Random random(1);
     Sample sampled, weighted;
-    V3d x, y;
-    frame(middle, x, y);
+    const auto [x, y] = frame(middle);
     const auto some = [&](const V3d& d) { return 1 + 8 * d.dot(x) + 3 * d.dot(y); };
     for (int i = 0; i < 100000; ++i) {
       const V3d d = spots.sample(aim, random.uniform(), random.uniform(), random.uniform());

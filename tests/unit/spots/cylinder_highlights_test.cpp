@@ -48,8 +48,7 @@ struct Place {
   double solidAngle;
 
   Place(const Cone& cylinder, const V3d& point, Random& random) {
-    V3d x, y;
-    frame(cylinder.axis, x, y);
+    const auto [x, y] = frame(cylinder.axis);
     const double angle = 2 * std::numbers::pi * random.uniform();
     const V3d normal = std::cos(angle) * x + std::sin(angle) * y;
     const V3d way = cylinder.base + random.uniform() * cylinder.length * cylinder.axis +
@@ -76,8 +75,7 @@ TEST(CylinderHighlights, AreAimedAtAsDensitySays) {
       if (!(aim.mean > 0)) continue;
       ++aimedAt;
       Random random(1);
-      V3d x, y;
-      frame(middle, x, y);
+      const auto [x, y] = frame(middle);
       const auto some = [&](const V3d& d) { return 2 + d.dot(x) + .5 * d.dot(y); };
       for (int i = 0; i < 6000; ++i) {
         const V3d d = highlights.sample(aim, random.uniform(), random.uniform(), random.uniform());

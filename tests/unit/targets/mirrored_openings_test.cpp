@@ -40,8 +40,7 @@ Found compare(const Setting& setting, const V3d& point, const Silhouette& region
   PathTracer tracer = setting.transport->pathTracer();
   const Silhouette::Cap cap = region.surroundingCap();
   const double around = 1.5 * std::tan(cap.angle);
-  V3d u, v;
-  frame(cap.axis, u, v);
+  const auto [u, v] = frame(cap.axis);
   int bright = 0, brightInside = 0, inside = 0;
   constexpr int kSide = 100;
   for (int i = 0; i < kSide; ++i)

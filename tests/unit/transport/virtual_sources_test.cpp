@@ -262,8 +262,7 @@ TEST(VirtualSource, BeamsHoldAllThatTheyLight) {
       V3d at(std::cos(around), std::sin(around), .5 * random.uniform()), way;  // about on a mirror
       const auto* const plane = lamp.as<PlaneLight>();
       if (const auto* cone = lamp.as<DistantLight>()) {
-        V3d x, y;
-        frame(lamp.center, x, y);
+        const auto [x, y] = frame(lamp.center);
         const double off = cone->sinHalfAngle * std::sqrt(random.uniform()),
                      turn = 2 * kPi * random.uniform();
         way = -(std::sqrt(1 - off * off) * lamp.center + off * std::cos(turn) * x + off * std::sin(turn) * y);
