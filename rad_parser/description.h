@@ -34,8 +34,7 @@ struct Cube {
 };
 
 // The contents of the scene files in their order, as plain values. Files named in arguments have not been
-// looked up. Nothing has been computed, except that xform commands executed in this process have transformed
-// arguments.
+// looked up. Nothing has been computed, but xform commands run in this process have transformed arguments.
 struct Description {
   std::vector<SourceFile> files;
   PrimitiveList primitives;

@@ -13,9 +13,18 @@ uint32_t DescriptionBuilder::addFile(std::string_view name, Place from) {
   return static_cast<uint32_t>(description_.files.size() - 1);
 }
 
+uint32_t DescriptionBuilder::intern(std::string_view word) {
+  if (const auto known = words_.find(word); known != words_.end()) return known->second;
+  if (description_.words.size() == std::numeric_limits<uint32_t>::max())
+    throw Error("too many different words");
+  const auto index = static_cast<uint32_t>(description_.words.size());
+  words_.emplace(description_.words.emplace_back(word), index);
+  return index;
+}
+
 PrimitiveId DescriptionBuilder::modifier(std::string_view name) const {
-  const uint32_t word = words_.find(name);
-  return word < inForce_.size() ? inForce_[word] : PrimitiveId();
+  const auto word = words_.find(name);
+  return word != words_.end() && word->second < inForce_.size() ? inForce_[word->second] : PrimitiveId();
 }
 
 std::string DescriptionBuilder::nearestModifier(std::string_view name) const {
@@ -41,7 +50,7 @@ Primitive DescriptionBuilder::begin(Type type, Place place, std::string_view nam
 void DescriptionBuilder::addString(Primitive& p, std::string_view word) {
   if (description_.stringArgs.size() == std::numeric_limits<uint32_t>::max())
     throw error(p.place, "too many string arguments");
-  description_.stringArgs.push_back(words_.intern(word));
+  description_.stringArgs.push_back(intern(word));
   ++p.strings;
 }
 
@@ -56,7 +65,7 @@ void DescriptionBuilder::add(const Primitive& p) {
     throw error(p.place, "too many primitives");
   description_.primitives.push_back(p);
   if (isSurface(p.type)) return;
-  const uint32_t word = words_.intern(p.name);
+  const uint32_t word = intern(p.name);
   if (word >= inForce_.size()) inForce_.resize(std::max<size_t>(word + 1, 2 * inForce_.size()));
   inForce_[word] = description_.primitives.last();
 }

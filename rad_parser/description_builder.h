@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "rad_parser/description.h"
 #include "rad_parser/error.h"
-#include "rad_parser/words.h"
 
 namespace rad {
 
@@ -13,7 +13,7 @@ namespace rad {
 // each modifier. The arguments of the next primitive are appended between begin() and add().
 class DescriptionBuilder {
  public:
-  DescriptionBuilder() : words_(description_.words) {}
+  DescriptionBuilder() = default;
   DescriptionBuilder(const DescriptionBuilder&) = delete;
   DescriptionBuilder& operator=(const DescriptionBuilder&) = delete;
 
@@ -23,7 +23,8 @@ class DescriptionBuilder {
   // Adds a file or command and returns its index. from: as in SourceFile.
   uint32_t addFile(std::string_view name, Place from = {SourceFile::kNoFile, 0});
 
-  uint32_t intern(std::string_view word) { return words_.intern(word); }
+  // The index of a word in Description::words; a new word is appended.
+  uint32_t intern(std::string_view word);
 
   // The current definition of this modifier, or kVoid if there is none.
   PrimitiveId modifier(std::string_view name) const;
@@ -60,7 +61,7 @@ class DescriptionBuilder {
 
  private:
   Description description_;
-  WordTable words_;
+  std::unordered_map<std::string_view, uint32_t> words_;  // indices; the keys are in description_.words
   std::vector<PrimitiveId> inForce_;  // by word: the current modifier of that name, or kVoid
 };
 

@@ -10,8 +10,7 @@ namespace {
 
 bool isDigit(char c) { return '0' <= c && c <= '9'; }
 
-// Whether a number that a double cannot represent is too small rather than too large. digits: a valid number
-// without sign.
+// Whether a number that a double cannot represent is too small, not too large. digits: valid, without sign.
 bool tooSmall(std::string_view digits) {
   const size_t e = digits.find_first_of("eE");
   const std::string_view mantissa = digits.substr(0, e);

@@ -40,8 +40,7 @@ inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
 // The name of a type as spelled in scene files ("BRTDfunc").
 std::string_view typeName(Type type);
 
-// Finds the type of this name, in exact spelling. Returns false, and leaves `type` unchanged, if there is
-// none.
+// Finds the type of this name, spelled exactly. If there is none, returns false and leaves `type` unchanged.
 bool findType(std::string_view name, Type& type);
 
 // The most similar type for a misspelt name, as the end of a message (see NearestName::hint()).

@@ -66,8 +66,7 @@ class BinaryReader {
     const auto m = static_cast<int32_t>(integer(4));
     const auto e = static_cast<int8_t>(*next_++);
     if (m == 0) return 0;
-    // Other readers also multiply by the reciprocal instead of dividing, so that results agree to the last
-    // bit.
+    // Other readers multiply by the reciprocal, too, so that results agree to the last bit.
     return (m + (m < 0 ? -.5 : .5)) * (1. / 0x7fffffff) * kPowers[128 + e];
   }
 

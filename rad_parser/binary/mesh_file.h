@@ -44,15 +44,13 @@ struct Mesh {
   std::vector<std::array<uint32_t, 2>> uvs;
   std::vector<Triangle> triangles;
 
-  // In the mesh's coordinates. The error of a coordinate from compiling the mesh is at most 2^-33 of the
-  // cube's size.
+  // In the mesh's coordinates. Compiling the mesh causes an error of at most 2^-33 of the cube's size.
   Imath::V3d position(uint32_t vertex) const;
 
   // Of unit length. The error from compiling the mesh is at most 0.006 degrees. Empty if the vertex has none.
   std::optional<Imath::V3d> normal(uint32_t vertex) const;
 
-  // u and v. Their errors from compiling the mesh are at most 2^-33 of the range. Empty if the vertex has
-  // none.
+  // u and v. Compiling the mesh causes errors of at most 2^-33 of the range. Empty: none.
   std::optional<Imath::V2d> uv(uint32_t vertex) const;
 };
 

@@ -211,8 +211,7 @@ class Expander {
     return id;
   }
 
-  // The symbol of the function named by a callee or an argument. If it names no function, returns -1 and the
-  // problem.
+  // The symbol of the function that a callee or an argument names; -1 and the problem if it names none.
   int function(const Syntax& tree, const Scope& scope, std::string& problem) const {
     const Syntax* t = &tree;
     const Scope* s = &scope;
@@ -274,8 +273,7 @@ class Expander {
       for (size_t i = 0; i < isNew.size(); ++i) {
         if (!isNew[i]) continue;
         const Id before = i < s->arguments.size() ? s->arguments[i].node : kNone;
-        // If the argument of the enclosing call is not constant, or not yet compiled, the recursion may be
-        // endless.
+        // If the argument of the enclosing call is not constant or not compiled, recursion may be endless.
         isNew[i] =
             before != kNone && inner.frame->graph.isConstant(before) && before != inner.arguments[i].node;
       }

@@ -85,8 +85,7 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
   }
 }
 
-// Allocates and initializes an activation of a frame: the constants, and the cells, none of which is computed
-// yet.
+// Allocates an activation of a frame and initializes its constants, and its cells as not computed.
 double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const {
   const size_t top = size_t{base} + frame.registers, cellTop = size_t{cellBase} + frame.cells;
   if (state.registers_.size() < top) state.registers_.resize(2 * top);

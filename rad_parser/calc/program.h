@@ -39,8 +39,7 @@ class State {
 
  private:
   friend class Program;
-  // A value that is computed when it is first needed. pc: the start of its code; kDone after the computation,
-  // kBusy during it.
+  // A value that is computed when first needed. pc: the start of its code; then kBusy, and at last kDone.
   struct Cell {
     uint32_t pc, base, cellBase;
   };
@@ -146,8 +145,7 @@ class Program {
   // The number of instructions, for tests.
   size_t size() const { return code_.size(); }
 
-  // Limits on the number of calls and postponed values in progress at the same time, and on their registers
-  // (8 bytes each).
+  // Limits on the calls and postponed values in progress at a time, and on their registers (8 bytes each).
   static constexpr size_t kMaxDepth = 100000, kMaxRegisters = size_t{1} << 25;
   // Limit on the calls in one evaluation; they take about a second. Branching recursion can run for very long
   // without being deep.

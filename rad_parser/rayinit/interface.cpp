@@ -93,8 +93,7 @@ double sourcePhi(const Point& point, std::span<const double> arguments) {
   }
 }
 
-// The prism panel described by the real arguments, as in fprism.cal. The third, the panel's thickness, has no
-// effect.
+// The prism panel described by the real arguments, as in fprism.cal. The third, its thickness, has no effect.
 PrismPanel panelOf(const Point& point, const char* function) {
   const auto argument = [&](size_t n) { return real(point, n, function); };
   PrismPanel panel;

@@ -367,8 +367,7 @@ class BsdfReader {
     (channel == Channel::y ? trees->y : channel == Channel::first ? trees->u : trees->v) = std::move(tree);
   }
 
-  // Removes chromaticity without luminance, and single coordinates of chromaticity, because they do not
-  // determine a color.
+  // Removes chromaticity without luminance and single coordinates of it, which determine no color.
   void dropIncomplete() {
     for (auto& m : file_.matrices) {
       if (m && m->y.empty()) m.reset();

@@ -13,9 +13,8 @@
 
 namespace rad {
 
-// The words of a command, if a shell would pass them unchanged: the command contains none of
-// |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if the command needs a
-// shell.
+// The words of a command, if a shell would pass them unchanged: it contains none of |&;<>()$`\*?[]{}!, quotes
+// only in pairs, and a comment (#) only at its end. Empty if the command needs a shell.
 std::optional<std::vector<std::string>> plainWords(std::string_view command);
 
 // One pass of xform over its files.
@@ -52,8 +51,7 @@ XformFault tooMany();
 
 // The number of copies of its files that the arrays (-a) of a command make: the product of their counts.
 // Counts that forEachPass() rejects are ignored. Throws XformFault, before anything is copied, if the product
-// times `outside` is above kMostPasses. outside: number of copies of this command that enclosing commands
-// make.
+// times `outside` is above kMostPasses. outside: copies of this command by enclosing ones.
 int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside = 1);
 
 }  // namespace rad

@@ -56,8 +56,7 @@ struct AnswerOptions {
     return !sphereMode && (sphere.accuracy > 0 || outputs.find('e') != std::string::npos);
   }
 
-  // Number of values in an input record: x y z of a point, origin and direction of a ray, or an eye and its
-  // gaze.
+  // Values in an input record: x y z of a point, origin and direction of a ray, or an eye and its gaze.
   int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }
 };
 

@@ -9,8 +9,7 @@
 namespace rsphere {
 namespace {
 
-// Distance (scene units) from a sensor (-I) at which rtrace starts its ray, so that it clears the surface of
-// the sensor.
+// Distance (scene units) from a sensor (-I) at which rtrace starts its ray, clear of the sensor's surface.
 constexpr double kSensorHeight = 1.1e-4;
 
 }  // namespace

@@ -321,8 +321,7 @@ void Batch::work(unsigned worker) {
   }
 }
 
-// Takes the next records: those that have arrived, at most `most`. Waits for the first one. Returns false if
-// there are no more.
+// Takes the next records that have arrived, at most `most`. Waits for the first. False if there are no more.
 bool Batch::take(Claim& claim, size_t most) {
   const std::lock_guard input(input_);
   if (inputEnded_ || stopping()) return false;
@@ -489,8 +488,7 @@ void Batch::writeFinished() {
   });
 }
 
-// Calls `write`, unless the output has ended. If it fails or was the last output, the run ends. REQUIRES
-// output_.
+// Calls `write`, unless the output has ended. If it fails or was the last, the run ends. REQUIRES output_.
 template <typename Write>
 void Batch::guardOutput(const Write& write) {
   try {

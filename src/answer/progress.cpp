@@ -6,8 +6,7 @@ namespace rsphere {
 namespace {
 
 // kStart: initial part of a picture. Its time does not predict the time of the rest, because its rays compute
-// the coarse solution. kEnough: the part after it that must be finished before the remaining time is
-// reported.
+// the coarse solution. kEnough: the part after it that precedes reports of the remaining time.
 constexpr double kStart = .1, kEnough = .05;
 
 }  // namespace

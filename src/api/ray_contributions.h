@@ -17,8 +17,7 @@ namespace rsphere::v1 {
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
 // Answers rays with contributions, as doubles: for each value of each column the mean over the samples and,
-// with more than one sample or an accuracy (-Sa), its standard error. Several threads of -n may call answer()
-// at a time.
+// with several samples or an accuracy (-Sa), its error. Several threads of -n may call answer() at a time.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.

@@ -405,8 +405,7 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
   return columns;
 }
 
-// Splits a record written by AnswerWriter as float64: numbers are copied, names end with a TAB. Returns the
-// end of the record.
+// Splits a record of AnswerWriter in float64: numbers are copied, names end with a TAB. Returns its end.
 const char* takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
   const char* at = bytes.data();
   for (const Column& column : columns) {

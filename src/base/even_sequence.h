@@ -18,8 +18,7 @@ inline Imath::V2d evenly(std::size_t i, double shift1, double shift2) {
   return {a - std::floor(a), b - std::floor(b)};
 }
 
-// A step between two points of evenly(): from any point i to point i + ahead, if the square continues at its
-// opposite side.
+// A step between points of evenly(): from any i to i + ahead, if the square continues at its opposite side.
 struct EvenStep {
   std::size_t ahead;
   Imath::V2d step;

@@ -5,8 +5,7 @@
 
 namespace rsphere {
 
-// A reference to a callable, valid only during the call that it is passed to. Making one copies and allocates
-// nothing.
+// A reference to a callable, valid only during the call that it is passed to. Making one copies nothing.
 template <class Signature>
 class FunctionRef;
 

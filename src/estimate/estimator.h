@@ -1,6 +1,5 @@
 #pragma once
-// Computes the quantities of sphere mode at a point from traced directions. -Sw is the strategy that chooses
-// and weights them.
+// Computes the quantities of sphere mode at a point from traced directions, which -Sw chooses and weights.
 //
 // Source: Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance Calculation" (base
 // directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:

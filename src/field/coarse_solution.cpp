@@ -339,8 +339,7 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   return {};
 }
 
-// Patches that contribute more to the light of other surfaces get more rays, because their noise matters
-// more.
+// Patches that contribute more to other surfaces get more rays, because their noise matters more.
 double CoarseSolution::raysOf(const Frame& frame) const {
   const double part = std::clamp(frame.share / effort_.usualShare, effort_.fewer, effort_.more);
   return std::clamp(effort_.usual * part, effort_.least, OfPatches::kMostRays);

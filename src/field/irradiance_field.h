@@ -16,8 +16,7 @@
 //
 // Memory: if a limit is set (-Sm), the first thread that finds the memory full replaces it by an empty one.
 // The old memory is freed when the last thread has stopped reading it. Sites that are needed again are
-// computed again, with bit-identical results. A thread stops reading at the end of each primary ray at the
-// latest.
+// computed again, with bit-identical results. A thread reads until the end of a primary ray at most.
 #include <memory>
 
 #include "field/ambient_file.h"

@@ -49,8 +49,7 @@ struct SiteInterpolation {
   // Divisor of the difference of the light of two sites, and of the part of it that the gradients do not
   // predict. Chosen by experiment. Insensitive.
   static constexpr double kByStep = 5;
-  // Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
-  // functions.
+  // Factor on the gradients of sites. With half of each, interpolation is exact for quadratic functions.
   static constexpr float kSlopes = .5F;
   // Divisor of the change of the gradient along the segment between two sites. For a quadratic function f
   // that change is f'' h^2, and the error of a linear interpolation is at most f'' h^2 / 8.
@@ -134,8 +133,7 @@ struct CoarseSolution {
   // Measured: with 2.5, a sunlit classroom has 15% more noise; with 8, it takes a sixth more time for equal
   // noise.
   // Also bounds the growth of the usual number by daylight, which below -aa .1 is inversely proportional to
-  // -aa, because all places that see a patch share its noise. Where that ends, patches do not become smaller
-  // either.
+  // -aa, because all places that see a patch share its noise. Where that ends, patches stay as large.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Patches with at least this number of rays send them from 16 places, others from 4. Measured below north
   // lights at -aa .05: with 4 places for all, the noise of sensors is .65 instead of .47% by sun. Places must

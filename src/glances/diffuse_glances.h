@@ -5,8 +5,7 @@
 //   direction,
 // - joins: connections, which are shadow rays from the point to light vertices, sent more often to vertices
 //   that would contribute more.
-// Traced directions find the remaining light: of sources in view, sharp reflections, and sampled rough
-// highlights.
+// Traced directions find the remaining light: visible sources, sharp reflections, sampled rough highlights.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,8 +21,7 @@ namespace rsphere {
 // Shared by all threads.
 class DiffuseGlances {
  public:
-  // Null if bidirectional sampling would miss some of the light (PlainSurfaces::obstacle()). Keeps
-  // references.
+  // Null if bidirectional sampling would miss some light (PlainSurfaces::obstacle()). Keeps references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
   // make() for rooms that daylight enters through openings, for points for which suitsDaylight() is true.

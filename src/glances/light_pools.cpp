@@ -25,8 +25,7 @@ double LightPools::powerOf(std::span<const uint32_t> sources) const {
   return sum;
 }
 
-// The sources from which most paths for a point should start; empty if the vertices common to all places
-// suffice.
+// The sources at which most paths for a point should start; empty if the common vertices suffice.
 std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
   const HiddenBoxes& hidden = prepared_.lights().hidden();
   const std::span<const uint32_t> seen = hidden.notHiddenFrom(point);

@@ -61,8 +61,7 @@ class NewFile {
   }
 
  private:
-  // Cap on the names that are tried for the temporary file. Few are taken, because each thread writes one
-  // picture at a time.
+  // Cap on the names tried for the temporary file. Few are taken: each thread writes one picture at a time.
   static constexpr int kMostNames = 10000;
 
   std::string target_, name_;

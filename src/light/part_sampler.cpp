@@ -269,16 +269,14 @@ void PartSampler::add(const V3d& direction, double solidAngle, double length) {
 }
 
 // A round source is sampled uniformly in solid angle projected along the direction to its middle. A single
-// ray to the middle is then exact for a surface that faces the source; jittered rays are exact for every
-// surface.
+// ray to the middle is then exact for a surface that faces the source; jittered rays for every surface.
 void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   if (jitter_ <= 0) return add(middle, kPi * sine * sine, distance);
   const double s = sine * jitter_ * std::sqrt(random_.uniform());
   const double angle = 2 * kPi * random_.uniform();
   const double c = std::sqrt(std::max(0., 1 - s * s));
   const auto [x, y] = frame(middle);
-  // The reach of a glow is compared with the distance to a random point in the ball, which avoids a sharp
-  // edge.
+  // The reach of a glow is compared with the distance to a random point in the ball: no sharp edge.
   double length = distance;
   if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
   if (c > kEdgeOn)

@@ -20,8 +20,7 @@ constexpr double kTiny = 1e-6;  // of cosines and shares: RADIANCE's own figure;
 constexpr double kRelayRounding = 1e-9;
 // For light that has passed more relays than this, only its source and this number of the last relays bound
 // it, because storing all n relays of each image in a chain of n would take memory of order n^2. The bounds
-// become wider, which affects memory and time but no answer. The images of two facing mirrors with -dr 2000
-// take 3 MB.
+// become wider, which affects memory and time but no answer. Two facing mirrors with -dr 2000 take 3 MB.
 constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
@@ -398,11 +397,9 @@ class Images {
     });
   }
 
-  // Whether light of a distant source that has passed a relay's bounding ball can reach anything in another
-  // ball.
+  // Whether light of a distant source from a relay's bounding ball can reach anything in another ball.
   static bool meetsDistantLight(const LightSource& source, const Ball& relay, const Ball& ball) {
-    // A source with an opening of 120 degrees or more is assumed to light every relay: slower, but no light
-    // is lost.
+    // A source with an opening of 120 degrees or more is assumed to light every relay, so that none is lost.
     const DistantLight& cone = *source.as<DistantLight>();
     if (cone.cosHalfAngle <= .5) return true;
     const V3d between = ball.center - relay.center;

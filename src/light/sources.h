@@ -25,8 +25,7 @@ struct SourceSample {
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
   double jitter = 0;   // size of the jittered region relative to the part (-dj), 0 to 1
-  // Normal (unit) of the surface at the point. Sources that lie entirely behind its plane are omitted; 0:
-  // none is omitted.
+  // Normal (unit) of the surface at the point. Sources entirely behind its plane are omitted; 0: none is.
   V3d front{0, 0, 0};
   // Whether balls are split, too, if they are jittered. rtrace never splits balls. Where many rays are
   // averaged, splitting them does not pay.

@@ -7,8 +7,7 @@ namespace rsphere {
 namespace {
 
 // The point on the arc from b to c whose versine (1 - cosine of its angle from b) is this fraction of c's
-// versine. The area of a spherical cap is proportional to its versine, so uniform fractions give uniform
-// areas.
+// versine. A spherical cap's area is proportional to its versine, so uniform fractions give uniform areas.
 V3d alongArc(const V3d& b, const V3d& c, double share) {
   const V3d difference = c - b;
   const double whole = difference.length2() / 2;  // 1 - cosine, without cancellation

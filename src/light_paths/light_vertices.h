@@ -10,8 +10,7 @@
 // - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
 //   reflections.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
-//   direct sunlight, daylight comes from the sky and from other surfaces, and sharp reflections transport it,
-//   too.
+//   direct sunlight, daylight comes from the sky and from other surfaces, by sharp reflections, too.
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -33,8 +32,7 @@ struct NearLight {
   double meanLength = 1;  // of light paths from the sources to the first surfaces
 
   // The fraction that rays estimate at this distance, because vertices would make it too noisy. It falls with
-  // the fourth power of the distance: far away, few rays meet bright surfaces, and they would be noisier than
-  // vertices.
+  // the fourth power of the distance: far away, few rays meet bright surfaces, which is noisier.
   double share(double distance) const {
     const double ratio = distance * distance / (width * width);
     return 1 / (1 + ratio * ratio);

@@ -184,8 +184,7 @@ void PlainSurfaces::findSurfaces() {
     const bool isSource = prepared_.lights().of(i) != kNone;
     const bool isDark = isBlack(sourceRadiance(scene_, surface));
     coverage_.all = coverage_.all && known && (!mayShine || isSource || isDark);
-    // A glow with a positive reach is a source only up to that distance; with a negative one it lights
-    // nothing.
+    // A glow with a positive reach is a source up to that distance; with a negative one it lights nothing.
     const auto* const glow = std::get_if<Glow>(material);
     const double reach = glow ? glow->reach : 0;
     coverage_.glows = coverage_.glows || (!isDark && (reach > 0 || (reach == 0 && !isSource)));

@@ -27,8 +27,7 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal
-// first.
+// The first hit along a straight line that is not a pane of glass; none if it leaves through a portal first.
 struct Sight {
   Hit hit;                // its distance is measured from the last pane
   double distance = 0;    // of the hit from the line's start, world units
@@ -51,8 +50,7 @@ class PlainSurfaces {
   // portals: none if daylight is not known.
   explicit PlainSurfaces(const PreparedScene& prepared, Portals portals = {});
 
-  // The reason why paths from both ends cannot be used, or why they would provide too little light; null if
-  // they can be used.
+  // Why paths from both ends cannot be used, or would provide too little light; null if they can be used.
   const char* obstacle() const;
 
   // How much of the scene's light paths from both ends estimate.
@@ -61,11 +59,9 @@ class PlainSurfaces {
     bool allSources = true;  // all sources are known
     bool all = true;         // all light: all surfaces and sources are known
     bool allDirect = true;   // all direct light of known surfaces
-    // Some surface emits light that shadow rays miss, wholly or in part; only a ray that hits the surface
-    // finds it.
+    // Some surface emits light that shadow rays miss, wholly or in part; only rays that hit it find it.
     bool glows = false;
-    // More than half of the area of all surfaces is not known (one side of each, without instances and
-    // meshes).
+    // More than half of the area of surfaces is not known (one side of each, without instances and meshes).
     bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
@@ -94,8 +90,7 @@ class PlainSurfaces {
   // which the line starts, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   // The transmittance of the panes on the straight line between two places (world); black if anything else
-  // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`, as in
-  // look().
+  // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`.
   Coefficient passing(const V3d& to, const V3d& from, SurfaceId start) const;
   // The transmittance of the panes between a place and a source in a direction (unit); portals are ignored.
   Coefficient passingToSource(const V3d& to, const V3d& direction, double distance, SurfaceId start) const;

@@ -17,9 +17,8 @@ struct LightVertices {
   //
   // Also the distance at which rays leave half of their light to joins with the eye
   // (NearLight::closeShare()), relative to the smaller of the distance from the eye and the mean distance.
-  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of
-  // 2 mm between a sheet of paper and the goal. Measured: with .01, the error is 10% larger, in a tenth less
-  // time.
+  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of 2
+  // mm between paper and goal. Measured: with .01, the error is 10% larger, in a tenth less time.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
   // Light paths that measure the mean distance from the sources to the first surfaces, and directions that
   // estimate the power of a source with a pattern or a cone. If single values vary as much as their mean,
@@ -28,8 +27,7 @@ struct LightVertices {
   // Cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
   // nearly all paths earlier.
   static constexpr size_t kMostHits = 1024;
-  // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2, and so for most
-  // vertices.
+  // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2: for most vertices.
   static constexpr double kRest = 1. / 101;
 };
 
@@ -62,8 +60,7 @@ struct VertexLight {
   //
   // At a place that the eye sees directly, a path from the eye estimates the light that light paths do not
   // carry. It is always followed if at least the fraction kFollowed of all hits of light paths are on unknown
-  // surfaces. If fewer are, its probability is proportional to their fraction, but at least half of
-  // kFollowed.
+  // surfaces. If fewer are, its probability is in proportion to them, but at least half of kFollowed.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 

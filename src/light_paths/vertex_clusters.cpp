@@ -184,8 +184,7 @@ void VertexClusters::measure(size_t i) {
       least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
-// Estimates the light from each cluster. An estimate is 0 only if all vertices of the cluster are hidden or
-// have the weight 0.
+// Estimates the light from each cluster: 0 only if all of its vertices are hidden or have the weight 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const V3d from = to.point - middle_;
   const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
@@ -251,8 +250,7 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
-      // All vertices are prefetched before the first is used, because few of them are in the processor's
-      // cache.
+      // All vertices are prefetched before the first is used, because few are in the processor's cache.
       __builtin_prefetch(&vertices_[vertex]);
       __builtin_prefetch(&vertices_[vertex].bounces);
       drawn.all[drawn.count++] = {vertex, expected / static_cast<double>(own)};

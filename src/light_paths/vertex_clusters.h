@@ -50,8 +50,7 @@ class VertexClusters {
     size_t count = 0;
   };
   // Samples kCandidates vertices, from clusters with probabilities proportional to their estimated light, and
-  // one of NearVertices, if there are any. Vertices that send no light are dropped, so that there may be
-  // fewer.
+  // one of NearVertices, if there are any. Vertices that send no light are dropped.
   Candidates draw(const Receiver& to, Random& random) const;
 
  private:

@@ -51,8 +51,7 @@ class VertexLight {
   struct Record {
     BatchSums batches{};
     // The part of the variance of `batches` that is caused by the random choice among vertices, not by the
-    // vertices. It is the sum of the squared contributions, each times the probability that the vertex is not
-    // chosen.
+    // vertices. It is the sum of the squared contributions, each times the probability not to be chosen.
     Color squares{0, 0, 0};
     double squaredBrightness = 0;
     const SpectralSampling* sampling = nullptr;

@@ -52,8 +52,7 @@ struct RayAnswers {
 };
 
 // Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors,
-// every quantity except directions and point has one group of columns for each contributor, with the part due
-// to it.
+// every quantity except directions and point has a group of columns for the part due to each.
 struct PointAnswers {
   size_t size = 0;  // the number of points
   // The modifiers of goals, or of light sources with -Sp; empty: quantities are totals.

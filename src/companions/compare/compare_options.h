@@ -19,8 +19,7 @@ struct CompareOptions : Options {
   std::string page;           // -Ch
 };
 
-// Describes rsphere-compare for parseCompanion(), with CompareOptions. It uses ray mode unless -S selects
-// sphere mode.
+// Describes rsphere-compare for parseCompanion(), with CompareOptions: ray mode unless -S is given.
 const Companion& compareCompanion();
 
 }  // namespace rsphere

@@ -29,8 +29,7 @@ namespace {
 // The seed of a repeat. The first repeat uses the seed that rsphere itself would use.
 uint64_t seedOfRepeat(uint64_t seed, size_t repeat) { return repeat == 0 ? seed : mixBits(seed + repeat); }
 
-// Removes rays whose direction is zero: they only make rtrace flush its output, and have no answer to
-// compare.
+// Removes rays whose direction is zero: they make rtrace flush its output, and have no answer to compare.
 std::vector<double> withoutBogus(const std::vector<double>& rays) {
   std::vector<double> kept;
   for (size_t i = 0; i < rays.size(); i += 6)
@@ -93,8 +92,7 @@ std::vector<Color> originalColors(Original& original, std::span<const double> ra
   return colorsOf(original.answers(rays, "v", sampling ? sampling->count() : 3), sampling);
 }
 
-// Runs the original once for all repeats, because within a run it uses different random numbers for equal
-// records.
+// Runs the original once for all repeats: within a run, equal records get different random numbers.
 Answers originalRays(Original& original, const CompareOptions& options, std::span<const double> rays) {
   const auto repeats = static_cast<size_t>(options.repeats);
   std::vector<double> all;

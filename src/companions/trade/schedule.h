@@ -30,8 +30,7 @@ double secondsLeft(const ReferenceProgress& progress);
 std::string slowReference(const ReferenceProgress& progress);
 
 // The relative cost of a setting: its directions times the power 3/4 of the indirect rays of each (-ad). For
-// the default settings this is right within a factor of about two, which is sufficient to predict the
-// remaining time.
+// the default settings this is right within a factor of about two, enough to predict the remaining time.
 double costOf(const AnswerOptions& setting);
 
 // The time in seconds for the remaining settings, predicted from the time for the first `done` settings.

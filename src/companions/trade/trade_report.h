@@ -12,8 +12,7 @@ namespace rsphere {
 std::string tradeTable(std::span<const Figures> all);
 std::string tradeCsv(std::span<const Figures> all, const Reference& reference);
 
-// States that errors do not include the light of further bounces, because the reference omits it as well, and
-// how to measure it.
+// States that errors exclude the light of further bounces, which the reference omits, and how to measure it.
 std::string bouncesText(int bounces);
 
 // The subject of a report, apart from the settings.
