@@ -160,8 +160,7 @@ class Trace {
   }
 
   const PrismPanel& panel_;
-  // For two neighbouring prisms: the start of the first, its edge, the valley between them, and the edge of
-  // the second.
+  // Of two neighbouring prisms: the start of the first, its edge, the valley between, the second's edge.
   V2d foot_, edge_, valley_, nextEdge_;
   V3d normals_[3];  // of the glass, outwards, by Side
   PanelRays rays_;

@@ -19,8 +19,7 @@ class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
 
-  // Writes a ray of ray mode, or a direction of sphere mode (-Sd). `record`: number of the input record from
-  // 0, for letter i.
+  // Writes a ray, or a direction of sphere mode (-Sd). `record`: number of the record from 0, for letter i.
   void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
 
   // Writes a ray of a tree (-ot), after a TAB for each of its ancestors; nothing if -te or -ti excludes it.
@@ -66,8 +65,7 @@ inline bool hasNoDirection(std::span<const double> ray) {
   return ray[3] * ray[3] + ray[4] * ray[4] + ray[5] * ray[5] == 0;
 }
 
-// rtrace's answer to a record whose direction is zero: the preceding ray (zeros if there is none), as if it
-// had hit nothing.
+// rtrace's answer to a record of direction zero: the preceding ray (zeros if none), as if it hit nothing.
 RayAnswer bogusAnswer(const InputRay& before);
 
 }  // namespace rsphere

@@ -54,8 +54,7 @@ using RealValue = double& (*)(Options&);
 using ColorValue = Color& (*)(Options&);
 using WordValue = std::string& (*)(Options&);
 using WordsValue = std::vector<std::string>& (*)(Options&);  // each use appends a word
-// For options of other types. `words` are the words after the name; `rest` is the part of the first word that
-// follows the name.
+// For options of other types. `words` follow the name; `rest` is the part of the first word after the name.
 struct Custom {
   void (*set)(Options& options, const OptionEntry& entry, std::span<const std::string> words,
               std::string_view rest);

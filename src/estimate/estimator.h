@@ -61,9 +61,8 @@ class SphereEstimator {
   // point after tuning::DiffuseGlances::kPools sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // Traces one set of directions. The integrals of one set estimate the integrals at the point; estimate()
-  // averages them over sets. Sets with different numbers below tuning::DiffuseGlances::kPools are independent
-  // of each other.
+  // Traces one set of directions, whose integrals estimate those at the point; estimate() averages them over
+  // sets. Sets with different numbers below tuning::DiffuseGlances::kPools are independent of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return usual_.strategy->sample(set, workspace.tracer, workspace.voronoi_);
   }

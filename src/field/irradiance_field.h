@@ -53,8 +53,7 @@ class IrradianceField {
   // The number of sites made, including those that were discarded and made again.
   size_t sitesMade() const;
 
-  // Bytes of all memories that have not been freed. They exceed the limit by at most the amount that current
-  // queries need.
+  // Bytes of all memories not yet freed. They exceed the limit by at most what current queries need.
   size_t bytes() const;
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
-// The position of a glare source in the field of view, and how much less disturbing it is there than on the
-// line of sight.
+// The position of a glare source in the field of view, and how much less it disturbs than on the gaze.
 #include <Imath/ImathVec.h>
 
 #include <optional>

@@ -33,8 +33,7 @@ class PictureFile {
   const std::string& name() const { return name_; }
   PictureFormat format() const { return format_; }
 
-  // REQUIRES that it was not called before. header: for PictureFormat::radiance, the lines before FORMAT with
-  // their line ends.
+  // REQUIRES: the first call. header: for PictureFormat::radiance, the lines before FORMAT, with line ends.
   void write(const Raster& raster, std::string_view header);
 
  private:

@@ -283,8 +283,7 @@ void PartSampler::addRound(const V3d& middle, double sine, double distance) {
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
 }
 
-// addRound() for a ball, stratified: the disk that the ball appears as is divided into parts, with one sample
-// in each.
+// addRound() for a ball, stratified: the disk that is seen is divided into parts, with a sample in each.
 void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
   const auto axes = frame(middle);
   const auto onSeenDisk = [&](double s, double t) {

@@ -331,8 +331,7 @@ class Images {
                       false};
   }
 
-  // The half space into which the last relay of a virtual source sends its light: the points with
-  // away . p > offset.
+  // Where the last relay of a virtual source sends its light: the points with away . p > offset.
   struct Side {
     V3d away;
     double offset;

@@ -1,7 +1,6 @@
 #pragma once
 // The light sources of a scene, and how they are sampled from a point: a source is split into parts that are
-// small compared with their distance (-ds), and one ray is sent to each part, at its middle or jittered
-// (-dj).
+// small compared with their distance (-ds), with one ray to each part, to its middle or jittered (-dj).
 #include <vector>
 
 #include "base/random.h"

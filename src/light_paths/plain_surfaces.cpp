@@ -210,8 +210,7 @@ const char* PlainSurfaces::obstacle() const {
   if (!coverage_.anySource) return "no known sources";
   // With glances, the light that only rays find is noisier. Measured: in three rooms with a lamp and a glow,
   // 2 to 2.7 times the error in 6 to 10 times the time. Where most surfaces are not known, glances find too
-  // little light to be worth their time. Measured: in a room with textured walls, an equal error in 2 to 3
-  // times the time.
+  // little light. Measured: in a room with textured walls, an equal error in 2 to 3 times the time.
   if (!scene_.importance && coverage_.glows) return "surfaces that only rays find";
   if (!scene_.importance && coverage_.mostlyUnknown) return "surfaces that are not known";
   return hasMist(scene_) ? "mist" : nullptr;

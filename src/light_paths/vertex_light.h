@@ -60,8 +60,7 @@ class VertexLight {
   };
   struct Indirect {
     int bounces = 1;  // limit for the light: -ab minus the bounces between the eye and the place
-    // Distance from the eye, if joins of light vertices at the place with the eye estimate closeShare();
-    // otherwise 0.
+    // Distance from the eye, if joins of vertices at the place with the eye estimate closeShare(); or 0.
     double fromEye = 0;
     Record* record = nullptr;                   // null: contributions are not recorded
     Coefficient scale{1};                       // factor on the recorded contributions (sr)

@@ -40,8 +40,7 @@ struct HiddenBoxes {
 // Polygons that hide (blockers.cpp).
 struct Blockers {
   static constexpr size_t kMostKnown = 8;  // number of recent blockers that are kept
-  // Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
-  // wall.
+  // Cap on the surfaces examined along the way to a box; furniture or glass may stand before a wall.
   static constexpr int kSurfacesInTheWay = 6;
   // Cap on the blockers that are kept for all regions: 6 MB.
   static constexpr size_t kMostFound = 16384;

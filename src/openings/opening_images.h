@@ -1,7 +1,6 @@
 #pragma once
 // The images of openings (openings.h) in flat mirrors. An image brings daylight to places that see the
-// opening in the mirror, perhaps only there. It lies behind its mirror, and rays are aimed at it as at an
-// opening.
+// opening in the mirror, perhaps only there. It lies behind its mirror; rays are aimed at it, too.
 #include "openings/openings.h"
 #include "rays/prepared_scene.h"
 

@@ -1,6 +1,5 @@
 #pragma once
-// Regions at which directions from a point are aimed (importance sampling), with estimates of the light from
-// each.
+// Regions at which directions from a point are aimed (importance sampling), and estimates of their light.
 #include <array>
 #include <cstddef>
 #include <cstdint>

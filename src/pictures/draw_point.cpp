@@ -271,8 +271,7 @@ Pixels Painter::tracePixels() {
   return pixels;
 }
 
-// Gathers at pixels that smoothing left without indirect light: a small surface may have no pixel that
-// gathers.
+// Gathers at pixels that smoothing left without indirect light: on small surfaces, none may gather.
 void Painter::gatherWhereUnknown(Pixels& pixels) {
   for (int row = 0; row < map_.height(); ++row)
     for (int column = 0; column < map_.width(); ++column) {

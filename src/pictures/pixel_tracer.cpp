@@ -43,8 +43,7 @@ int panesBefore(const RayEnd& end, const Scene& scene) {
 
 }  // namespace
 
-// Components are not separated in a participating medium, because the observer sees them before the medium
-// attenuates them.
+// Not separated in a participating medium, because the observer sees parts before the medium attenuates them.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),

@@ -16,11 +16,9 @@ enum class Projection {
   // both edges. Columns are even steps of azimuth; rows descend from the zenith +z to the nadir.
   latitudeLongitude,
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
-  // from +y is proportional to the distance from the middle, and reaches pi at the rim. The corners are
-  // black.
+  // from +y is proportional to the distance from the middle, pi at the rim. Corners are black.
   angularFisheye,
-  // What a camera shows that is held level: RADIANCE's view -vtv -vd 0 1 0 -vu 0 0 1. Vertical edges are
-  // vertical.
+  // What a level camera shows: RADIANCE's view -vtv -vd 0 1 0 -vu 0 0 1. Vertical edges are vertical.
   perspective
 };
 

@@ -66,8 +66,7 @@ double ownPartOfSecond(double m) {
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-// The neighbours of the first `count` points of evenly() in the unit square. Points at its opposite sides are
-// not neighbours.
+// The neighbours of the first `count` points of evenly() in the unit square, whose opposite sides are apart.
 Neighbours latticeNeighbours(size_t count, const Imath::V2d& shift) {
   constexpr size_t kSteps = 3;  // a point has six neighbours, in three pairs of opposite steps
   std::vector<std::vector<uint32_t>> around(count);

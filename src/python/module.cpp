@@ -212,8 +212,7 @@ py::object sphere(const py::object& self, const py::object& given, const py::kwa
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
-// Whether all items are names of modifiers. Raises TypeError for a single name, because its letters would be
-// taken for names.
+// Whether all items are names of modifiers. Raises TypeError for a single name: its letters would be names.
 bool areNames(const py::object& given, const std::string& argument) {
   if (py::isinstance<py::str>(given))
     throw py::type_error(argument + " must be a list: [" + py::repr(given).cast<std::string>() + "]");

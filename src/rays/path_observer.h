@@ -9,8 +9,7 @@ namespace rsphere {
 
 class VertexLight;
 
-// The light source that is visible along a primary ray, and the surface that mirrors it; kNone if there is
-// none.
+// The light source that is visible along a primary ray, and the surface that mirrors it; kNone: none.
 struct ShownSource {
   SurfaceId source;
   SurfaceId mirror;

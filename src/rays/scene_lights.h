@@ -30,8 +30,7 @@ class MistSources {
 // The light sources of a scene, with data about them that tracing needs. Shared by all threads.
 class SceneLights : public LightSources {
  public:
-  // relays: -dr. warn: receives the warnings of LightSources and MistSources. Keeps references to the scene
-  // and the tracer.
+  // relays: -dr. warn: for LightSources and MistSources. Keeps references to the scene and the tracer.
   SceneLights(const Scene& scene, const Tracer& tracer, const SurfaceFunctions& functions, int relays,
               const rad::Warn& warn);
   SceneLights(const SceneLights&) = delete;
@@ -51,8 +50,7 @@ class SceneLights : public LightSources {
   const std::vector<SurfaceId>& distant() const { return distant_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
-  // Finds light sources that are hidden from a point, by their numbers. A virtual source is hidden if its
-  // relay is hidden.
+  // Finds light sources that are hidden from a point, by number. A virtual source is hidden if its relay is.
   const HiddenBoxes& hidden() const { return hidden_; }
   const MistSources& ofMists() const { return ofMists_; }
 

@@ -16,8 +16,7 @@ struct SharedHighlights {
 
 // The light sources of a scene (scene_lights.cpp).
 struct SceneLights {
-  // Up to this number of sources, sampling all of them takes less time than finding those that are hidden
-  // (measured).
+  // Up to this number, sampling all sources takes less time than finding those that are hidden (measured).
   static constexpr size_t kFewSources = 16;
 };
 

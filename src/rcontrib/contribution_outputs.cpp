@@ -90,8 +90,7 @@ class ContributionOutputs::Output {
     writer = std::make_unique<RecordWriter>(descriptor_, plan.name);
   }
 
-  // Opens a file with records, to complete it. Returns their number; empty if the file does not exist or has
-  // no bytes.
+  // Opens a file with records, to complete it. Returns their number; empty if there is no file or no byte.
   std::optional<uint64_t> openToComplete(const ContributionOptions& options, int components) {
     descriptor_ = ::open(plan.name.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor_ < 0 && errno == ENOENT) return std::nullopt;

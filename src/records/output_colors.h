@@ -31,8 +31,7 @@ struct ColorOptions {
   int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
 
-  // The division of the spectrum; null if the run has three channels. REQUIRES that checkColors() did not
-  // throw.
+  // The division of the spectrum; null with three channels. REQUIRES that checkColors() did not throw.
   const SpectralSampling* sampling() const {
     return bands > 3 ? &spectralSampling(bands, shortest, longest) : nullptr;
   }
@@ -87,8 +86,7 @@ class OutputColors {
   std::vector<double> seen_;  // -pE: of its bands
 };
 
-// Throws rad::Error with rtrace's text if the bands or limits are impossible, or if the primaries span no
-// gamut.
+// Throws rad::Error with rtrace's text if bands or limits are impossible, or if primaries span no gamut.
 void checkColors(const ColorOptions& options);
 
 // Whether colors have standard errors (-oe): only unconverted channels or bands, and luminance. The error of

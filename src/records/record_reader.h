@@ -59,8 +59,7 @@ class RecordReader {
   double shareRead() const;
 
   // The first line of text that is not blank, after it has been read to its end. The number of values in it
-  // shows whether records have the expected columns. Empty for binary input, and if line ends are the ends of
-  // records.
+  // shows whether records have the expected columns. Empty for binary input, and if line ends end records.
   struct FirstLine {
     uint64_t line = 1;
     int numbers = 0;

@@ -148,8 +148,7 @@ class Builder {
 
   // ---- octrees and meshes
 
-  // Calls a function that reads the file named by primitive i. If it fails, the error also names that
-  // primitive.
+  // Calls a function that reads the file named by primitive i. If it fails, the error also names i.
   template <class Read>
   std::invoke_result_t<Read> read(PrimitiveId i, const Read& reader) const {
     try {

@@ -121,9 +121,8 @@ struct Prism {
   int images = 1;
   ModifierId functions = kNone;
 };
-// Surfaces with certain modifiers do not exist between the front and the back of antimatter. cut: shading of
-// the places where its back cuts through a volume enclosed by these surfaces; with Kind::pass, the cut is
-// open.
+// Surfaces with certain modifiers do not exist between the front and the back of antimatter. cut: shading
+// where its back cuts through a volume enclosed by these surfaces; with Kind::pass, the cut is open.
 struct Antimatter {
   uint64_t clips = 0;  // bits of those modifiers, see Surface::clip
   Alternate cut{Alternate::Kind::pass};

@@ -184,8 +184,7 @@ Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& 
   return {Alternate::Kind::pass, kNone};
 }
 
-// The modifier that WGMDfunc names for a component. None is needed if the component reflects or transmits
-// nothing.
+// The modifier that WGMDfunc names for a component. A component without light needs none.
 std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name,
                                                              bool used) {
   if (!used || name == "inherit") return std::nullopt;

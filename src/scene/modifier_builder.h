@@ -15,8 +15,7 @@
 
 namespace rsphere {
 
-// Converts modifiers to Scene::modifiers: those that surfaces use, and those named in their arguments. Each
-// is converted once.
+// Converts modifiers to Scene::modifiers, each once: those that surfaces use, and those named in arguments.
 class ModifierBuilder {
  public:
   // Keeps references to both. The description of the scene may grow between calls.

@@ -79,13 +79,11 @@ struct Scene {
   }
   // samePlaceIn() of the scene itself: kSamePlace unless the scene is small.
   double samePlace = kSamePlace;
-  // The total area of these surfaces, counting one side of each (square world units), without instances and
-  // meshes.
+  // The total area of these surfaces, one side of each (square world units), without instances and meshes.
   double area() const;
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
-  // Whether the surface has a modifier. An instance or a mesh with a modifier applies it to all
-  // of its contents.
+  // Whether the surface has a modifier. That of an instance or a mesh applies to all of its contents.
   bool hasOwnModifier(const Surface& s) const { return s.finish.described != rad::kVoid; }
   // The name of a surface. In scenes of more than kFewSurfaces it is decoded, which takes .1 microseconds.
   std::string surfaceName(const Surface& s) const;

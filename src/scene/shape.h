@@ -76,8 +76,7 @@ struct Ring {
   double inner = 0, outer = 1;
 };
 
-// A cone of directions at infinity: "source". The tracer does not contain it; rays that hit nothing else see
-// it.
+// A cone of directions at infinity: "source". It is not in the tracer; rays that hit nothing else see it.
 struct Distant {
   V3d direction{0, 0, 1};  // unit, towards it
   double halfAngle = 0;    // radians, at most pi
@@ -105,8 +104,7 @@ struct MeshInstance {
   uint32_t mesh = 0;       // index in Scene::meshes
 };
 
-// The triangles of a mesh with the same material from the mesh file. Rays hit them through instances of the
-// mesh.
+// The triangles of a mesh with one material of the mesh file. Rays hit them through instances of the mesh.
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;

@@ -357,8 +357,7 @@ class Means {
     return drawFirst_ ? drawn | given << 2 : given | drawn << given_;
   }
 
-  // Selects the second half with probability proportional to its mass. Rescales u, which is then uniform
-  // again.
+  // Selects the second half with probability proportional to its mass. Rescales u to be uniform again.
   static bool choose(double first, double second, double& u) {
     const double target = u * (first + second);
     const bool taken = target >= first && second > 0;

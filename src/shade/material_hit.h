@@ -1,6 +1,5 @@
 #pragma once
-// The hit of a ray, as seen by materials. Values that most hits do not need are computed only when a material
-// requests them.
+// The hit of a ray, as seen by materials. Values that most hits do not need are computed on request.
 #include "scene/scene.h"
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"

@@ -79,8 +79,7 @@ class SurfaceFunctions {
   bool dependsOnDistance(ModifierId pattern) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // The share of the foreground, 0 to 1. Negative if it cannot be computed, which means that the mixture is
-  // ignored.
+  // The share of the foreground, 0 to 1. Negative if it cannot be computed: the mixture is ignored.
   double mixture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
 
   // The functions of materials; the neutral value is 0.
@@ -90,8 +89,7 @@ class SurfaceFunctions {
   V3d orientation(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the up direction in the world, of any length.
   V3d up(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // BSDF: the thickness of the hidden geometry, in world units; positive if it lies behind the surface's
-  // front.
+  // BSDF: the thickness of the hidden geometry (world units); positive if it lies behind the front.
   double thickness(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the file's data.
   const BsdfData& bsdf(ModifierId modifier) const;
@@ -106,8 +104,7 @@ class SurfaceFunctions {
   Color distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                      FunctionScratch& scratch) const;
 
-  // prism1, prism2: for an image (0 or 1), the coefficient of the redirected ray and its direction (world,
-  // unit).
+  // prism1, prism2: for an image (0 or 1), the redirected ray's coefficient and direction (world, unit).
   struct Redirection {
     double coefficient = 0;
     V3d direction{0, 0, 0};

@@ -1,6 +1,5 @@
 #pragma once
-// Scattering of light by a surface towards a ray's origin, divided into the terms that a path tracer
-// estimates:
+// Scattering of light by a surface towards a ray's origin, in the terms that a path tracer estimates:
 //
 //   sharp paths  +  lobes, by samples  +  on each side: indirect light  +  direct light
 //

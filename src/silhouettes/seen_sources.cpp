@@ -254,8 +254,7 @@ std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, con
                                                      uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Images with less than one ray are sampled with that probability, with a weight that represents the
-  // others.
+  // Images with less than one ray are sampled with that probability, and represent the others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -303,8 +302,7 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
   return samples;
 }
 
-// The fraction of an image's region that shows the source if nothing is in front of it. eye: the point, or
-// its mirror image.
+// The fraction of an image's region that shows the unobstructed source. eye: the point, or its mirror image.
 double SeenSources::filledShare(const Image& image, const V3d& eye, Random& random) const {
   const ShapeRef shape = shapeOf(prepared_, image);
   const double shift1 = random.uniform(), shift2 = random.uniform();

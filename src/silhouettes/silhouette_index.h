@@ -1,6 +1,5 @@
 #pragma once
-// Finds the silhouettes that may contain a direction. Testing all silhouettes took a fifth of the time of a
-// point.
+// Finds the silhouettes that may contain a direction. Testing all took a fifth of the time of a point.
 #include <array>
 #include <cstdint>
 #include <span>

@@ -56,8 +56,7 @@ Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V
 // A point on the object, or on the ball around it (world).
 SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random);
 
-// The text of -Sl, one line for each object: place, surface, type and name of its material, density, and
-// reason.
+// The text of -Sl, a line for each object: place, surface, type and name of its material, density, reason.
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects);
 
 }  // namespace rsphere

@@ -156,8 +156,7 @@ int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   int sign = liftedSide<double>(a, b, c, p);
-  // Extended precision decides most cases of rounded sites on a common circle. It takes 40 ns, the exact form
-  // 2 us.
+  // Extended precision decides most cases of rounded sites on a circle, in 40 ns; the exact form takes 2 us.
   if (sign == 0) sign = liftedSide<long double>(a, b, c, p);
   if (sign != 0) {
     ++counts.lifted;

@@ -68,8 +68,7 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   return ball;
 }
 
-// Each ball is treated as a small source. For points nearby, its images lie at its focus, half a radius below
-// the surface.
+// Each ball is treated as a small source. For near points, its images lie half a radius below the surface.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   for (const uint32_t number : near_.at(point)) {

@@ -7,8 +7,7 @@
 // curvature, the roughness and the source. Highlights that are missed or misplaced change the variance, not
 // the mean.
 //
-// Smooth balls are ignored: as in rtrace, light sources mirrored by smooth surfaces are not visible to
-// indirect rays.
+// Smooth balls are ignored: as in rtrace, indirect rays do not see light sources in smooth surfaces.
 #include "openings/proposals.h"
 #include "openings/tuning.h"
 #include "spots/brightest_sources.h"

@@ -58,8 +58,7 @@ struct Bend {
 // Source: Ward, "Measuring and modeling anisotropic reflection" (SIGGRAPH 1992), which defines the roughness.
 struct Highlight {
   HighlightLobe lobe;  // wider than the highlight by the factor tuning::Highlights::kWider
-  // The solid angle of the part's image on a smooth surface, divided by the solid angle of the part as seen
-  // from `at`.
+  // The solid angle of the part's image on a smooth surface, divided by that of the part as seen from `at`.
   double magnified;
   // The variance of the highlight along the direction in which the surface is straight (square world units).
   double lengthwise;
@@ -72,8 +71,7 @@ struct Highlight {
             const V3d& point);
 };
 
-// The material of a surface that shows highlights: plastic or metal with a roughness above 0. Null for
-// others.
+// The material of a surface that shows highlights: plastic or metal with roughness above 0. Or null.
 const Opaque* roughReflector(const Scene& scene, const Surface& surface);
 
 // The fraction of the light, by brightness, that plastic or metal reflects in highlights.

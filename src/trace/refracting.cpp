@@ -27,8 +27,7 @@ class Refracting {
   }
 
  private:
-  // A chain of modifiers. Each modifier is examined once, because nested mixtures may name the same one many
-  // times.
+  // A chain of modifiers. Each is examined once, because nested mixtures may name it many times.
   bool modifier(ModifierId first) {
     for (ModifierId m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];

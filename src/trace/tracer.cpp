@@ -422,8 +422,7 @@ class Tracer::Tree {
     return true;
   }
 
-  // A hit on a mesh without a modifier is attributed to the triangle's material or, if it has none, to the
-  // mesh.
+  // A hit on a mesh without a modifier is attributed to the triangle's material or, without one, to the mesh.
   Owner triangleOwner(uint32_t triangle, const Owner& mesh) const {
     const int32_t material = mesh_->data.triangles[triangle].material;
     return standsForContents(mesh) || material == rad::Mesh::kNoMaterial
@@ -709,8 +708,7 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     blocked = tree.blocks(query);
   const bool refracted = blocked && embree_->refracting[0] && embree_->refractsBefore(query);
   blocked = blocked && !refracted;
-  // If a ray is unoccluded, the next one usually is too. Testing the old blocker would then take more time
-  // than it saves.
+  // If a ray is unoccluded, the next one usually is too, and testing the old blocker would not pay.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
   if (blocked) return Shadow::blocked;
   if (refracted) return Shadow::refracted;

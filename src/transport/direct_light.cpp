@@ -20,8 +20,7 @@ constexpr size_t kAlwaysTested = 2;
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
 
-// Kinds of sources. The visibility of each kind is estimated separately, because their causes of occlusion
-// differ.
+// Kinds of sources. The visibility of each is estimated separately, because their occlusion differs.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 

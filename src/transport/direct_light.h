@@ -2,8 +2,7 @@
 // Next-event estimation: direct light from the light sources, with its shadows.
 //
 // All sources are sampled, and the brightest contributions are tested for shadows first. Contributions too
-// weak to matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is
-// sampled.
+// weak to matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection is sampled.
 #include <vector>
 
 #include "base/function_ref.h"
@@ -21,8 +20,7 @@ using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double so
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight : PathPart {
-  // Binary logarithm of the size of the table of blockers, which takes 16 kB, half of a core's first-level
-  // cache.
+  // Binary logarithm of the size of the table of blockers: 16 kB, half of a core's first-level cache.
   static constexpr int kBlockerBits = 12;
 
  public:

@@ -109,8 +109,7 @@ bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& res
   return false;
 }
 
-// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded the hit with a
-// material.
+// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded it with a material.
 inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayResult& result) {
   const Content& content = t_.scene().modifiers[modifier].content;
   SurfaceHit& hit = end.hit;

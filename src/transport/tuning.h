@@ -14,9 +14,8 @@ struct GatherDirections {
   // from them. Measured for openings: variance x time 1.3 .9 1 1 with .5, and 7.8 2.4 1.1 1.2 with .3. For
   // spots, the results from .5 to .9 do not differ beyond noise.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
-  // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
-  // near openings, where rooms are brighter than farther inside. Measured: variance x time 4.8 2.3 .8 1 with
-  // 1.
+  // Factor on the estimate of the light from elsewhere, the smaller of two. Both are made near openings,
+  // where rooms are brighter than farther inside. Measured: variance x time 4.8 2.3 .8 1 with 1.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
 };
 
