@@ -43,8 +43,7 @@ struct Description {
   std::deque<std::string> words;
   std::vector<uint32_t> stringArgs;  // indices in words
   std::vector<double> realArgs;      // of all primitives except polygons
-  std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; a last incomplete three
-                                     // is filled with zeros
+  std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; zeros complete the last
 
   // For an octree: the lines of its information header, except FORMAT lines.
   std::vector<std::string> header;

@@ -70,8 +70,7 @@ struct Primitive {
   Place place;                            // of the primitive's first word
   uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
   uint32_t reals = 0;                     // number of real arguments
-  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs; for a polygon,
-                                          // of the first vertex in Description::vertices
+  uint64_t firstReal = 0;                 // index in Description::realArgs; of a polygon: in its vertices
   std::string name;
 };
 

@@ -21,8 +21,7 @@ std::optional<std::vector<std::string>> plainWords(std::string_view command);
 struct XformPass {
   Transform transform;
   std::vector<std::string> files;  // as given
-  bool changesDirectory = true;    // whether commands in the files run in the directories of the files
-                                   // (without -c)
+  bool changesDirectory = true;    // whether commands in files run in the files' directories (no -c)
 };
 
 // An error of an xform command. what() begins with "xform: ". The caller adds the place of the command.

@@ -22,8 +22,7 @@ struct AnswerOptions {
   bool commands = true;                   // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;         // -Sg
   std::vector<Sensor> sensors;            // goals in addition to -Sg
-  bool separate = false;                  // whether the part due to each goal, or to each light source's
-                                          // modifier, is reported
+  bool separate = false;                  // report the part due to each goal or light source's modifier
   std::vector<std::string> contributors;  // their names, set after the scene is read; empty: no parts
   // input
   NumberFormat in = NumberFormat::ascii;         // -f

@@ -100,8 +100,7 @@ double sharing(std::span<const DirectionSample> samples, const SpectralSampling*
     second += square;
     fourth += square * square;
   }
-  constexpr double kUniform = 1.8;  // fourth moment of uniformly distributed values over the square of the
-                                    // second
+  constexpr double kUniform = 1.8;  // fourth moment of uniform values over the square of the second
   return fourth > 0 ? std::min(n, kUniform * second * second / fourth) : n;
 }
 

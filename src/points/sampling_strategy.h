@@ -44,8 +44,7 @@ class SetAtPoint {
 struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // light found by glances, minus the light of glances along samples
-                                // (DirectionSample::glanced); 0 without glances
+  Moments excess;               // light found by glances, minus DirectionSample::glanced; or 0
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // error due to light vertices, not in `variance`
   KernelVariances ofKernels;    // `variance` by zone and quantity (kernels.h)

@@ -48,16 +48,14 @@ struct SurfaceGroup {
 
 // A mesh file, stored only once for all its instances.
 struct Mesh {
-  rad::Mesh data;                  // of its materials only the bounding cube remains; the rest is in
-                                   // Scene::description
+  rad::Mesh data;                  // of its materials, only the cube remains; see Scene::description
   std::vector<SurfaceId> facesOf;  // by index of the mesh's material: its MeshFaces, or kNone
 };
 
 // A scene prepared for tracing. It has only the modifiers that are used and the surfaces that can be hit.
 struct Scene {
   rad::FileAccess files;             // the files that modifiers may name
-  rad::Description description;      // of the scene, followed by octrees and meshes; without vertices, see
-                                     // below
+  rad::Description description;      // of the scene, then octrees and meshes; without vertices, see below
   SurfaceList surfaces;              // of each group in turn, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;

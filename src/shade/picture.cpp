@@ -376,8 +376,7 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   const auto [first, last] = header.wavelengths;
   if (std::ranges::any_of(header.formats, [](auto& f) { return f != kSpectra; }))
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
-  constexpr int kLeastComponents = 4;  // three components are red, green and blue, which are read by
-                                       // colorpict
+  constexpr int kLeastComponents = 4;  // three are red, green and blue, which colorpict reads
   if (header.components < kLeastComponents) bad(path, "expected at least 4 components (NCOMP=)");
   const auto isWavelength = [](double nm) { return nm >= 1 && nm <= 1e6; };
   if (!(isWavelength(first) && isWavelength(last) && first != last))

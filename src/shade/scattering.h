@@ -84,8 +84,7 @@ struct Scattering {
   V3d transmitted{0, 0, 0};  // the middle of the transmitted lobe
   bool sampleReflection = false, sampleTransmission = false;
 
-  bool widenReflection = false;  // whether the reflected lobe is widened by the size of the source (plane
-                                 // surfaces)
+  bool widenReflection = false;  // whether the source's size widens the reflected lobe (plane surfaces)
 
   // The medium through which the ray arrived, if knowsMedium, which means that the surface determines it.
   bool knowsMedium = false;

@@ -41,8 +41,7 @@ struct FunctionPoint {
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
   Color color{1, 1, 1};          // of the material with its pattern; for BRTDfunc, of the pattern
-  V3d toTarget{0, 0, 0};         // for redirection(): to the light source at which the ray is aimed (unit),
-                                 // or 0
+  V3d toTarget{0, 0, 0};         // for redirection(): to the light source that is aimed at (unit), or 0
 };
 
 // Working memory for evaluations by one thread.
@@ -179,8 +178,7 @@ class SurfaceFunctions {
     std::array<ProgramPointer, 3> distribution;
     bool gray = true;
     std::shared_ptr<const rad::DataFile> table;
-    std::vector<ProgramPointer> coordinates;  // coordinates in the table, as functions of the same four
-                                              // arguments
+    std::vector<ProgramPointer> coordinates;  // in the table, as functions of the same four arguments
   };
 
   // A coefficient and a direction for each image.

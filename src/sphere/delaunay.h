@@ -19,8 +19,7 @@ namespace rsphere {
 // Fills one cache line, so that each step of a walk or of a hole's growth loads only one line.
 struct alignas(64) Triangle {
   double nx = 0, ny = 0, nz = 0,
-         offset = 0;             // normal: outward, with the length of twice the area; offset: normal .
-                                 // corner
+         offset = 0;             // normal: outward, length twice the area; offset: normal . corner
   float bound = 0;               // the sign of beyond() is right if its absolute value exceeds this bound
   std::uint32_t corner[3] = {};  // sites, counterclockwise as seen from outside
   std::uint32_t next[3] = {};    // neighbour across the edge opposite each corner: 4 * triangle + edge
@@ -41,8 +40,7 @@ struct Delaunay {
   static constexpr std::uint32_t kNone = ~0u;
 
   std::vector<Site> sites;                  // in the order of insertion
-  std::vector<std::uint32_t> standsFor;     // the site into which each was merged; itself if it was not
-                                            // merged
+  std::vector<std::uint32_t> standsFor;     // the site that each was merged into, or itself
   std::vector<std::uint32_t> someTriangle;  // a triangle with the site as a corner
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> unused;  // free slots in triangles; their corner[0] is kNone

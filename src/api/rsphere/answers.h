@@ -94,8 +94,7 @@ struct GlareSource {
 // regardless of the colors that options select. Definitions and sources: GLARE in man/rsphere.1.
 struct GlareAnswers {
   size_t size = 0;                    // the number of eyes
-  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite on a black
-                                      // background
+  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite on black
   Quantity ugrStandardError;          // U  estimated, like the other standard errors
   Quantity illuminance;               // v  at the eye, in a plane perpendicular to the gaze
   Quantity illuminanceStandardError;  // V

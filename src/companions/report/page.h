@@ -17,8 +17,7 @@ struct PageTable {
   };
   std::vector<std::string> head;
   std::vector<Row> rows;
-  size_t textColumns = 1;   // number of text columns at the left; the other columns are numbers, aligned at
-                            // the right
+  size_t textColumns = 1;   // number of text columns at the left; the others are numbers, aligned right
   bool lastIsText = false;  // whether the last column is text, too
 };
 

@@ -60,8 +60,7 @@ struct Figures {
   double bias = 0, biasError = 0;  // mean error, and its standard error
   bool biased = false;             // whether the bias is significant (99%)
   double estimated = 0;            // rms of the standard errors estimated by the setting
-  bool limited = false;  // whether the error of the reference is over half of the difference found, so that
-                         // rms is uncertain
+  bool limited = false;  // whether the reference's error is over half of the difference: rms is uncertain
   bool best = false;     // whether no other setting is both as fast and as accurate
 };
 

@@ -9,8 +9,7 @@
 namespace rsphere {
 
 struct ReferenceProgress {
-  double rotations = 0;          // number of finished rotations; below 1, the fraction of points answered in
-                                 // the first one
+  double rotations = 0;          // finished rotations; below 1, the fraction of points answered in the first
   size_t leastRotations = 0;     // minimum number of rotations
   double seconds = 0;            // time taken
   double error = 0, target = 0;  // relative standard error: achieved, and requested

@@ -29,8 +29,7 @@ struct TradeSubject {
   std::string given;           // the command line of rsphere-trade
   std::string referenceWords;  // the setting of the reference
   int repeats = 0;             // number of repeats of each setting
-  size_t repeatsOfLast = 0;    // number of repeats of the last setting, if a signal ended it early; otherwise
-                               // 0
+  size_t repeatsOfLast = 0;    // number of repeats of the last setting, if a signal ended it early; or 0
 };
 
 // An SVG plot of rms error against seconds for a point, with logarithmic axes. Each setting is a mark in the
