@@ -72,9 +72,8 @@ class ModifierIndex {
   // Indexes all primitives starting with primitives[first].
   explicit ModifierIndex(const Description& description, size_t first = 0);
 
-  // The last modifier of this name that is defined before primitives[index]; this is the one to which the
-  // name refers there. kVoid if there is none, and for "void". The time is logarithmic in the number of
-  // definitions of the name.
+  // The last modifier of this name that is defined before primitives[index]; the name refers to it there.
+  // kVoid if there is none, and for "void". The time is logarithmic in the definitions of the name.
   PrimitiveId before(std::string_view name, PrimitiveId index) const;
 
   // The most similar modifier that is defined before primitives[index], or void, as the end of a message (see

@@ -35,8 +35,7 @@ constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  
 // Powers of ten, by the number of digits that are read together.
 constexpr std::array<uint64_t, 9> kScale = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// Reads digits, eight at a time if that many characters are left. The number of digits among the eight is
-// found without branches.
+// Reads digits, eight at a time while so many characters are left, and counts them without branches.
 const char* readDigits(const char* at, const char* last, uint64_t& value) {
   static_assert(std::endian::native == std::endian::little);
   while (last - at >= 8) {

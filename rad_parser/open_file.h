@@ -14,8 +14,7 @@
 
 namespace rad {
 
-// A file that is open for reading as long as this object exists. If it cannot be opened, descriptor() is -1
-// and errno is the reason.
+// A file that is open for reading as long as this object exists; if it fails, descriptor() is -1 (errno).
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -32,8 +31,7 @@ class OpenFile {
   // Size in bytes when the file was opened, if it is regular.
   size_t size() const { return static_cast<size_t>(begin_.st_size); }
 
-  // The contents, starting at the current position. name: for messages. Throws Error if they cannot be read,
-  // for example if it is a folder.
+  // The contents from the current position. name: for messages. Throws Error if unreadable, as a folder is.
   std::string contents(std::string_view name) const {
     std::string bytes;
     if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));

@@ -27,8 +27,7 @@ class BinaryReader {
   // read from the descriptor, at most half a block (128 kB).
   BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead = {});
 
-  // The information header, which ends with an empty line. Its first line need not be "#?RADIANCE", because
-  // octrees of 1989 lack that line.
+  // The information header, which ends with an empty line. Octrees of 1989 lack its first line, "#?RADIANCE".
   struct Header {
     std::vector<std::string> lines;  // without line ends and without FORMAT lines
     std::string format;              // the last format that is given; empty if there is none

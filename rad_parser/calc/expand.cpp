@@ -35,8 +35,7 @@ struct Argument {
   int symbol = -1;
 };
 
-// The environment in which a tree is compiled: the definition whose body it belongs to, and the arguments of
-// that definition's parameters.
+// The environment in which a tree is compiled: the definition that it belongs to, and the arguments of that.
 struct Scope {
   const Definition* definition = nullptr;  // null: the primitive's own expressions
   const Scope* caller = nullptr;           // scope of the call that the definition's body replaces
@@ -146,8 +145,7 @@ class Expander {
       case Kind::power: {
         const Id base = compile(tree.args[0], scope);
         const Id exponent = compile(tree.args[1], scope);
-        // RADIANCE's rule if the base is written as the number 0 and the exponent is variable: the result is
-        // 0 even if the exponent is 0.
+        // RADIANCE's rule if the base is the number 0 and the exponent is variable: the result is always 0.
         if (tree.args[0].kind == Kind::number && tree.args[0].number == 0 && !graph.isConstant(exponent))
           return base;
         return graph.operate(Op::power, base, exponent);

@@ -99,8 +99,7 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
   return r;
 }
 
-// Pushes an entry onto the return stack. The caller keeps the depth of the stack, so that the interpreter can
-// hold it in a register.
+// Pushes an entry onto the return stack, whose depth the caller keeps, so that it can be in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
   if (depth >= kMaxDepth || registers > kMaxRegisters) {
     throw Error(fmt::format("{}: recursion is too deep or endless", frame.name));

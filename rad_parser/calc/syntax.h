@@ -21,8 +21,7 @@ namespace rad::calc {
 
 inline constexpr char kContextMark = '`';
 
-// Whether a character may be part of a name. The character classes of the C library are not used, because
-// they depend on the locale.
+// Whether a character may be part of a name, in any locale, unlike classes of the C library.
 bool isNamePart(char c);
 
 struct Syntax {
@@ -47,8 +46,7 @@ struct Definition {
   bool isFunction() const { return !parameters.empty(); }
 };
 
-// Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is a single
-// level regardless of its length.
+// Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is one level.
 inline constexpr int kMaxNesting = 400;
 
 // Parses the definitions in a file whose first line has the number firstLine. Throws Error "FILE:LINE:

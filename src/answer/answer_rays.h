@@ -23,8 +23,7 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
 // estimate() at a time.
 class EstimatedRays {
  public:
-  // Keeps a reference to the transport. checkStop: called while a ray is computed; what it
-  // throws is passed on to the caller.
+  // Keeps a reference to the transport. checkStop: called while a ray is computed; it may throw.
   EstimatedRays(const Transport& transport, const AnswerOptions& options,
                 const std::function<void()>& checkStop);
   // farthest, seed: as for PathTracer::trace().

@@ -14,8 +14,7 @@
 
 namespace rsphere {
 
-// Collects data for the warnings at the end of a run from its answers. Thread-safe; the warnings do not
-// depend on the order of the answers.
+// Collects data for the warnings at the end of a run from its answers, in any order. Thread-safe.
 class RunSummary {
  public:
   // Add the answer at a point, at an eye (-Su), and for a sensor of -I.

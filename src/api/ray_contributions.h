@@ -26,8 +26,7 @@ class RayContributions {
   RayContributions(const RayContributions&) = delete;
   RayContributions& operator=(const RayContributions&) = delete;
 
-  // summary: gets the error of the sum of the contributions, with an accuracy. checkStop: called while a ray
-  // with an accuracy is computed.
+  // summary: gets the error of the sum, with an accuracy. checkStop: called while such a ray is computed.
   void answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
               const std::function<void()>& checkStop = {});
   bool hasErrors() const { return samples_ > 1 || estimator_; }

@@ -51,8 +51,7 @@ class DiffuseGlances {
   // An estimate of the light of at() along one direction (W/sr/m2), by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
 
-  // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
-  // and other transmitting surfaces.
+  // The light vertices of a set, for surfaces that its traced directions see by reflection or transmission.
   std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
     return lights_.at(set.point(), set.number());
   }

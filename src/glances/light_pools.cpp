@@ -50,8 +50,7 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     if (!known) known = std::make_shared<Pool>();
     found = known;
     found->asked = ++made_.asked;
-    // The pool that has not been requested for the longest time is removed. Points that still use it keep it
-    // until they are finished.
+    // The least recently requested pool is removed. Points that still use it keep it until they are finished.
     if (made_.pools.size() > made_.most)
       made_.pools.erase(
           std::ranges::min_element(made_.pools, {}, [](const auto& p) { return p.second->asked; }));

@@ -411,8 +411,7 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
 // solid angle of a near part is unevenly distributed over its area, so that its middle would be too bright.
 void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
-  // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
-  // would then fill half the sky.
+  // In the plane of the source, rounding would decide whether the point sees it, filling half the sky.
   if (height <= scene_.samePlace) return;
   const double omega = solidAngleOf(source_, plane, part, point_);
   double u = random_.uniform() * omega;

@@ -8,8 +8,7 @@
 namespace rsphere {
 namespace {
 
-// The brightness (W/sr/m2) of a source, or of the real source that a virtual source shows. Patterns and
-// reflectances are taken as 1.
+// The brightness (W/sr/m2) of a source, or of a virtual source's real one; patterns and reflectances are 1.
 double brightnessOf(const Scene& scene, const ById<LightId, LightSource>& all, LightId index) {
   while (all[index].isVirtual()) index = all[index].relayed;
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));

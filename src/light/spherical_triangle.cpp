@@ -33,8 +33,7 @@ V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, 
   if (!(length > 0)) return alongArc(b, a, u2);
   const V3d e = across / length;
   const double half = u1 * solidAngle / 2;
-  // If b is near a or nearly opposite to it, sums and differences of the vectors keep digits that products of
-  // the vectors would lose.
+  // If b is near a or nearly opposite, sums and differences of vectors keep digits that products would lose.
   const bool near = a.dot(b) > 0;
   const double onePlus = (a + b).length2() / 2, volume = std::abs(e.dot(a.cross(near ? b - a : b + a)));
   const double whole = std::atan2(c.dot(e), c.dot(a));

@@ -7,8 +7,7 @@
 // - A source lights the first diffuse surface directly, through panes, or by a rough highlight. Sharp
 //   reflections are excluded, because shadow rays do not follow them either; but those of importance are not,
 //   since rays from the goals find the same light.
-// - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
-//   reflections.
+// - Later surfaces reflect it diffusely (at most -ab times), sharply or by a rough highlight.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
 //   direct sunlight, daylight comes from the sky and from other surfaces, by sharp reflections, too.
 #include <atomic>

@@ -1,6 +1,5 @@
 #pragma once
-// The surfaces and light sources that bidirectional estimation can handle, called "known" (light_vertices.h,
-// vertex_light.h):
+// The surfaces and light sources that bidirectional estimation can handle, called "known":
 // - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
 //   patterns, if these depend on place alone;
 // - local sources at which shadow rays can be aimed, and their images in mirrors;

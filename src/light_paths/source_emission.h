@@ -39,8 +39,7 @@ class SourceEmission {
   };
   Leaving leave(LightId source, ScrambledPoint& random, FunctionScratch& scratch) const;
 
-  // The mean power of a path, W (brightness). All paths from even sources have this power, unless some
-  // sources are preferred.
+  // The mean power of a path, W (brightness): that of paths from even sources, unless some are preferred.
   double pathPower() const { return pathPower_; }
 
   // Factor on the light at this distance from its source (world units), because the light of a spotlight

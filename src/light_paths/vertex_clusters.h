@@ -1,6 +1,5 @@
 #pragma once
-// Clusters of light vertices. For each place, vertices are sampled in proportion to estimates of the light
-// that their clusters send to it.
+// Clusters of light vertices. For each place, vertices are sampled by estimates of their clusters' light.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -66,8 +66,7 @@ class VertexLight {
     Coefficient scale{1};                       // factor on the recorded contributions (sr)
     const OutdoorRadiance* outdoors = nullptr;  // the light beyond portals. REQUIRED if there are any
   };
-  // The mean radiance that arrives over the hemisphere of the place after at least one bounce, or
-  // straight through a portal (W/sr/m2).
+  // The mean radiance over the hemisphere of the place (W/sr/m2) from bounces, or straight through a portal.
   Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
  private:

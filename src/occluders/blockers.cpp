@@ -32,8 +32,7 @@ struct Corners {
   }
 };
 
-// Calls use() with the surfaces between two points, in the order of a ray, until it returns true. Returns
-// whether it has returned true.
+// Calls use() with the surfaces between two points, in order, until it returns true; returns whether it did.
 bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRef<bool(SurfaceId)> use) {
   V3d way = to - from, origin = from;
   double left = way.length() - tracer.samePlace();

@@ -20,8 +20,7 @@ constexpr double kSameNumber = 1.2345678e-6;
 // rounding of coordinates, and the tracer lets no ray pass between such polygons (meetsInside()).
 constexpr double kTouching = 16 * std::numeric_limits<double>::epsilon();
 
-// Places on both sides of an edge are tested. Their distance from it is this multiple of the distance within
-// which polygons touch.
+// Places on both sides of an edge are tested, at this multiple of the distance within which polygons touch.
 constexpr double kBeside = 8;
 
 // 1 or -1: the sign that gives all polygons of a plane one common normal.

@@ -29,8 +29,7 @@ struct HiddenBoxes {
   // To decide whether to divide a region, only polygons are considered whose size times this factor is at
   // most the region's width. For larger polygons, division would gain little.
   static constexpr double kWorthDividing = .25;
-  // Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
-  // boxes are tested first.
+  // Cap on the tests to find the boxes hidden from a region. To keep below it, groups are tested first.
   static constexpr size_t kMostTests = 4096;
   // Up to this number of boxes, blockers are searched for from both ends of a segment; for more boxes this
   // takes more time than it saves.

@@ -15,8 +15,7 @@ struct OpeningImage : Opening {
   V3d crossing(const V3d& from, const V3d& to) const;
 };
 
-// The strongest images. Missed images, and places from which other surfaces hide an image, change the
-// variance, not the mean.
+// The strongest images. Missed images, and hidden ones, change the variance, not the mean.
 class OpeningImages : public AimedAtOpenings<OpeningImage> {
  public:
   // Uses polygons of mirror, or of smooth metal or plastic, outside of instances. Keeps no references.

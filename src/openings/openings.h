@@ -17,8 +17,7 @@
 
 namespace rsphere {
 
-// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light
-// through the opening.
+// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light.
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;

@@ -1,6 +1,5 @@
 #pragma once
 // Pictures of the view from a point, in all directions or in perspective: projections, exposure and names.
-// draw_point.h draws them.
 #include <cstdint>
 #include <optional>
 #include <string>

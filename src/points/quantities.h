@@ -2,8 +2,7 @@
 // The quantities of an answer at a point, by their -o letters. The command line, the writer of answers,
 // -defaults and the manual take them from one table: a new quantity is a row of it.
 //
-// The letter e is the standard error of the quantity before it: of the mean if there is none before it, or
-// one without errors (o, k).
+// The letter e is the standard error of the quantity before it; of the mean after none, o or k.
 #include <cstdint>
 #include <span>
 #include <string_view>

@@ -35,8 +35,7 @@ class StopSignals {
   }
   int descriptor() const;
 
-  // The name of the signal in rtrace's words, such as "Terminate"; empty if no signal was raised. The caller
-  // must then write the message.
+  // The signal in rtrace's words, such as "Terminate", for the caller's message; empty if none was raised.
   std::string name() const;
 };
 

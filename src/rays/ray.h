@@ -14,8 +14,7 @@
 
 namespace rsphere {
 
-// Light sources whose light is scattered into a ray, as indices in MistSources::all(). Unused elements are
-// neither initialized nor copied.
+// Light sources scattered into a ray, as indices in MistSources::all(). Unused elements are not initialized.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
   uint8_t count = 0;

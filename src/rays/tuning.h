@@ -1,12 +1,10 @@
 #pragma once
-// The tuning constants of this folder (base/tuned.h). They affect the variance of light and the
-// computing time, but not the mean.
+// Tuning constants (base/tuned.h). They affect variance and time, not the mean.
 #include "base/tuned.h"
 
 namespace rsphere::tuning {
 
-// The balance between shadow rays and samples of the lobe in the estimate of rough highlights of sources
-// (shared_highlights.cpp).
+// The balance between shadow rays and samples of the lobe in rough highlights (shared_highlights.cpp).
 struct SharedHighlights {
   // If the lobe's density in a direction (per sr) times the solid angle of the source is below this, only
   // shadow rays estimate the light from that direction. Derived: a shadow ray then adds at most a quarter of

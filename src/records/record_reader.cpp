@@ -131,8 +131,7 @@ void RecordReader::malformed(std::string_view word) const {
                                counted(perRecord_), rad::printable(word, kShownWord)));
 }
 
-// A fast path for most text after the first line: reads records in the block up to the first that does not
-// consist of plain numbers.
+// A fast path for most text after the first line: reads records up to the first that is not of plain numbers.
 size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
   const char* at = block_.data() + begin_;
   const char* const stop = block_.data() + end_;

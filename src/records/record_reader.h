@@ -41,8 +41,7 @@ class RecordReader {
   // Throws rad::Error with Status::system if read(2) fails.
   size_t read(std::vector<double>& numbers, size_t most);
 
-  // Waits for the next record. Returns the number of records that have arrived, at most `most`, which the
-  // next read() will return.
+  // Waits for the next record. Returns how many have arrived, at most `most`, for the next read().
   size_t arrived(size_t most);
 
   // `waiting` is called with true before the reader waits for input, and with false when it stops waiting.

@@ -45,8 +45,7 @@ struct Glass {
   double refraction = 1.52;
 };
 
-// `functions` in the materials below: the index of the material's modifier, with which SurfaceFunctions
-// evaluates its functions.
+// `functions` in the materials below: the index of the material's modifier, for SurfaceFunctions.
 
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
@@ -105,8 +104,7 @@ struct BsdfMaterial {
   ModifierId functions = kNone;
 };
 
-// The shading of an illum or mirror for rays that neither sample it as a light source nor are mirrored as
-// part of a virtual source.
+// The shading of an illum or mirror for rays that neither sample it as a source nor form a virtual source.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
   ModifierId modifier = kNone;  // for Kind::modifier
@@ -166,8 +164,7 @@ inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
 using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,
                               WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,
                               Antimatter, Mist, Light, Illum, Glow, Spotlight>;
-// Code that handles only one type of material asserts this number: it stops compiling when a type is added,
-// until somebody has checked it.
+// Code for one type of material asserts this number: a new type stops it compiling until someone checks it.
 inline constexpr size_t kMaterialTypes = std::variant_size_v<Material>;
 
 }  // namespace rsphere

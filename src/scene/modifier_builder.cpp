@@ -31,8 +31,7 @@ void ModifierBuilder::beginFile(uint32_t firstPrimitive) {
 ModifierId ModifierBuilder::modifier(PrimitiveId described) {
   if (described == rad::kVoid) return kNone;
   modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
-  // The loop follows the chain from `described` to void. It avoids recursion because a file may contain
-  // chains of any length.
+  // Follows the chain from `described` to void, without recursion because a chain may have any length.
   std::vector<PrimitiveId> chain;
   PrimitiveId next = described;
   while (next != rad::kVoid && modifierOf_[next] == kUnknown) {

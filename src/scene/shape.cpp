@@ -12,8 +12,7 @@ namespace {
 // The rounding error of a coordinate difference, relative to the coordinates: two ulp.
 constexpr double kRounding = 4.5e-16;
 
-// The normal, scaled by twice the area. It is computed relative to the first vertex, so that it is accurate
-// far from the origin.
+// The normal times twice the area, relative to the first vertex, so that it is accurate far from the origin.
 V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
   V3d sum(0, 0, 0);
   for (size_t i = 2; i < vertices.size(); ++i)
@@ -93,8 +92,7 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> all) {
 
 namespace {
 
-// Threshold of the cross product below which a point is treated as lying on an edge. size: of the coordinates
-// from which the product is computed.
+// Threshold of the cross product below which a point is on an edge. size: of the coordinates of the product.
 double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
 
 // inside() for a point that may lie on an edge or on its extension.
@@ -252,8 +250,7 @@ Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
   if (polygon.hasArea) {
-    // Hits lie on the mean plane. If the vertices are not coplanar, the plane extends beyond their box along
-    // the projection axis.
+    // Hits lie on the mean plane, which extends beyond the box of vertices that are not coplanar.
     const double out = thicknessOf(polygon, vertices) / std::abs(polygon.normal[polygon.axis]);
     box.min[polygon.axis] -= out;
     box.max[polygon.axis] += out;

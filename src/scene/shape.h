@@ -108,8 +108,7 @@ struct MeshInstance {
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
-// Code that handles only one type of shape asserts this number: it stops compiling when a type is added,
-// until somebody has checked it.
+// Code for one type of shape asserts this number: a new type stops it compiling until someone checks it.
 inline constexpr size_t kShapes = std::variant_size_v<Shape>;
 
 // Every shape is Distant, a PlainShape or a NestedShape. These two concepts list their types, so that

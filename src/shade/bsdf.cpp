@@ -222,8 +222,7 @@ class MatrixScattering final : public DirectedScattering {
     std::vector<float> sums_;
   };
 
-  // The incident direction of the data is that in which light travels: undeflected transmitted light has the
-  // same azimuth on both sides.
+  // Incident directions of the data are those of light: undeflected light has the same azimuth on both sides.
   std::optional<size_t> incidentCell(const V3d& d) const { return in_.cellOf(-d.x, -d.y, std::abs(d.z)); }
   std::optional<size_t> scatteredCell(const V3d& d) const { return out_.cellOf(d.x, d.y, std::abs(d.z)); }
 

@@ -58,8 +58,7 @@ V3d BsdfScattering::jittered(const V3d& view, double projectedSolidAngle, Random
   return v.normalized();
 }
 
-// If the albedo of the directed part is at most the specular threshold (-st), it is not sampled but added to
-// the indirect light.
+// A directed part with an albedo of at most -st is not sampled but added to the indirect light.
 std::optional<Lobe> BsdfScattering::lobe(Component component, Random& random) {
   const bool transmits = component == Component::transmitted;
   const DirectedScattering* directed = part(component);

@@ -168,8 +168,7 @@ std::variant<Absorbs, Passes, BsdfScattering> response(const BsdfMaterial& mater
   const ModifierId f = material.functions;
   double thickness = material.proxy ? functions.thickness(f, hit.point(), hit.scratch()) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
-  // Direct views, shadow rays, and all rays from the side of the hidden geometry trace this geometry itself
-  // instead of its proxy.
+  // Direct views, shadow rays, and rays from the side of the hidden geometry trace it instead of its proxy.
   if (thickness != 0 &&
       (a.isShadow() || !(a.kinds & (kSpecular | kAmbient)) || (thickness > 0) != hit.interaction().front))
     return Passes{};

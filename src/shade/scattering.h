@@ -91,8 +91,7 @@ struct Scattering {
   Medium medium{};
 };
 
-// specularThreshold: -st. Lobes with at most this share are not sampled; their share is added to the
-// coefficient of indirect light.
+// specularThreshold: -st. Lobes of at most this share are not sampled but added to the indirect coefficient.
 Scattering scatter(const Opaque& material, const Interaction& at, double specularThreshold);
 Scattering scatter(const Trans& material, const Interaction& at, double specularThreshold);
 // basic: transports basic radiance (radiance over n^2). Like importance, it is not scaled by the ratio of the

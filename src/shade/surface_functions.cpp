@@ -677,8 +677,7 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
       spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
 }
 
-// RADIANCE samples data of unevenly spaced wavelengths at even steps, which misses spectral lines. Here the
-// means over bands are exact.
+// RADIANCE samples data of uneven wavelengths at even steps, which misses lines. Here, band means are exact.
 Color SurfaceFunctions::colorOf(const SpectralCurve& curve) const {
   if (sampling_) return Color(bandsOf(curve, *sampling_));
   return threeChannels(

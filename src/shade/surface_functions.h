@@ -1,6 +1,5 @@
 #pragma once
-// Evaluates patterns, textures, mixtures and the functions of materials at a surface point: function files,
-// data, pictures and text.
+// Evaluates patterns, textures, mixtures and materials at a point: function files, data, pictures and text.
 //
 // A modifier's files are read and compiled at its first evaluation, and shared by all threads without a lock.
 // Threads may evaluate at the same time, each with a separate FunctionScratch.

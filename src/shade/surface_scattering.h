@@ -31,8 +31,7 @@ inline const V3d kNoFront{0, 0, 0};
 // A lobe that is estimated by samples.
 struct Lobe {
   int leastSamples = 1;  // for a ray of weight 1, regardless of -ss
-  // The lobe's share of the ray's radiance. If it is above 0, it limits the number of samples, so that each
-  // has a weight of at least -lw.
+  // The lobe's share of the ray's radiance. Above 0, it limits the samples, so that each weighs at least -lw.
   double share = 0;
   V3d offset = kNoOffset;  // from the hit to the origin of the samples (world units)
 };

@@ -10,8 +10,7 @@
 
 namespace rsphere {
 
-// Divides the sphere of directions into cells on the faces of a cube. Each cell lists the silhouettes whose
-// surrounding caps overlap it.
+// Cells of directions on the faces of a cube. Each cell lists the silhouettes whose caps overlap it.
 class SilhouetteIndex {
  public:
   // number: the name of the silhouette in the result of near().

@@ -11,8 +11,7 @@
 
 namespace rsphere {
 
-// The irregularity of a material, 0 to 1: how much the light that it scatters varies with direction. For the
-// constants, see tuning.h.
+// The irregularity of a material, 0 to 1: how much its scattered light varies with direction (tuning.h).
 // - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
 //   prisms; aBSDF, whose data are meant to have a peak straight through.
 // - kPane for glass, and for an illum that shows what is behind it. Other illums have the irregularity of

@@ -55,8 +55,7 @@ struct SpecialObjects {
   // Objects whose radiance varies less with direction than this are treated as diffuse: derived. At this
   // threshold they would get 16 directions per sr, a tenth of the density of the default base directions.
   static inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
-  // Up to this number of special objects, looking at each of them takes less time than finding out which are
-  // hidden (HiddenBoxes). Measured.
+  // Up to this number of special objects, looking at each is faster than finding the hidden ones. Measured.
   static constexpr size_t kFewHidden = 1024;
   // If octrees and meshes contain more special objects than this, each outermost instance becomes one
   // object, because the silhouettes of all objects are computed at every point. It is also the cap on pairs

@@ -191,8 +191,7 @@ void VoronoiWorkspace::Data::finishAreas() {
   for (std::uint32_t site = 0; site < area.size(); ++site) {
     anyMerged = anyMerged || delaunay.standsFor[site] != site;
     if (spoiled[site]) area[site] = carefulSolidAngle(delaunay, site);
-    // In a cluster within an ulp, the cells are as small as the deviations of the radii of the hull's points
-    // from 1 (predicates.h).
+    // In a cluster within an ulp, cells are as small as the hull's deviations from radius 1 (predicates.h).
     if (area[site] < 0 && area[site] > -kLeastArea) area[site] = 0;
   }
   if (anyMerged) {

@@ -100,8 +100,7 @@ bool BallHighlights::meets(const Ball& ball, const V3d& point, const V3d& direct
   return true;
 }
 
-// Whether a ray meets a ball at a point where a source's highlight is not negligible. This test avoids most
-// evaluations of lobes.
+// Whether a source's highlight is not negligible where a ray meets a ball. Avoids most evaluations of lobes.
 bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d& direction,
                             const V3d& normal) {
   const V3d way = part.towards(ball.sphere.center + ball.sphere.radius * normal);

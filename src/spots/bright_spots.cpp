@@ -13,8 +13,7 @@
 namespace rsphere {
 namespace {
 
-// Lower bound on the squared sine of a spot's angular radius. In single precision, smaller spots cannot be
-// distinguished from points.
+// Lower bound on the squared sine of a spot's angular radius: smaller ones are points in single precision.
 constexpr float kNarrowest = 1e-6f;
 
 V3d onDisk(const V3d& normal, double radius, double angle) {

@@ -22,8 +22,7 @@ struct BrightSpots {
   // leaves one third, two thirds and nearly all of the noise. Insensitive. For light that enters through
   // openings, no minimum is required.
   RSPHERE_DERIVED(BrightSpots, double, kBrighter, 5);
-  // Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only
-  // the relative power of spots matters.
+  // Transmittance assumed for every pane: clear single glazing. Only the relative power of spots matters.
   static constexpr double kTransmittance = .9;
   // The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
   static constexpr size_t kFewest = 12;

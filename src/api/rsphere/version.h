@@ -1,6 +1,5 @@
 #pragma once
-// The version of the library with these headers. Programs compiled for 1.x run with any later 1.y; version()
-// returns the version in use.
+// The version of the library with these headers. Programs compiled for 1.x run with any later 1.y: version().
 
 #define RSPHERE_VERSION_MAJOR 1
 #define RSPHERE_VERSION_MINOR 0
