@@ -64,8 +64,7 @@ class Library {
   Library(Interface interface, LoadFile load, Warn warn = {});
   ~Library();
 
-  // Adds definitions to the shared context, after the prelude: the text of an option -e, or the file of -f.
-  // Throws Error.
+  // Adds definitions to the shared context, after the prelude: a text (-e) or a file (-f). Throws Error.
   void define(std::string_view text, std::string_view place);
   void include(std::string_view file);
 

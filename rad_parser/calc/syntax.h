@@ -49,8 +49,7 @@ struct Definition {
 // Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is one level.
 inline constexpr int kMaxNesting = 400;
 
-// Parses the definitions in a file whose first line has the number firstLine. Throws Error "FILE:LINE:
-// expected ...".
+// Parses the definitions in a file from the line firstLine on. Throws Error "FILE:LINE: expected ...".
 std::vector<Definition> parseDefinitions(std::string_view text, std::string_view file,
                                          uint32_t firstLine = 1);
 

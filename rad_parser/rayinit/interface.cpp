@@ -53,8 +53,7 @@ double sourceCorrection(const Point& point, std::span<const double> arguments) {
     case 1: return value / point.inputs[Rdot];
     case 2: return value / projectedArea(d, side(2), side(3), side(4));
     case 3: {
-      // Each side that faces the start of the ray contributes its area, times the distance of the start from
-      // its plane.
+      // Each side that faces the start of the ray adds its area times the distance of start and plane.
       const double distance = point.inputs[Ts];
       const double x = side(2), y = side(3), z = side(4);
       const auto beyond = [&](int axis, double length) {

@@ -72,9 +72,8 @@ struct Sites {
   V2f middle{.5, .5};  // their mean, relative to the sides of the patch
 };
 
-// Sets the middle and the weights of sites so that they give the linear function that fits their light best
-// (least squares); without slopes if they lie nearly on a line. at: their places, relative to the sides of
-// the patch.
+// Sets the middle and the weights of sites for the linear function that fits their light best (least
+// squares); without slopes if they are nearly on a line. at: their places, relative to the patch's sides.
 void fitLinear(const std::vector<V2f>& at, Sites& sites) {
   if (at.empty()) return;
   const auto count = static_cast<float>(at.size());

@@ -24,8 +24,7 @@ struct SitesAround {
   double roughness(double tolerance) const;
 
   // The light at a place (world coordinates): interpolated, and extrapolated by the mean gradient if the
-  // sites that see the place do not surround it. extrapolationError: the expected relative error of the
-  // extrapolation.
+  // sites that see the place do not surround it. extrapolationError: expected, relative.
   GatheredLight at(const V3d& place, double& extrapolationError) const;
 };
 

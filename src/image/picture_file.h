@@ -20,10 +20,9 @@ PictureFormat pictureFormat(const std::string& name);
 
 // A file for a picture. An incomplete picture is never visible: it is written to a temporary file in the same
 // folder, which replaces the target when it is complete. A device, a pipe or the file of a standard
-// descriptor (/dev/stdout) is written directly. The constructor checks whether the file can be written, so
-// that errors occur before the picture is computed. Constructor and write() throw rad::Error (Status::system)
-// with the name of the file and the system's message: 'cannot write picture "a.png": No space left on
-// device'.
+// descriptor (/dev/stdout) is written directly. The constructor checks whether the file can be written,
+// before the picture is computed. Constructor and write() throw rad::Error (Status::system) with the name of
+// the file and the system's message: 'cannot write picture "a.png": No space left on device'.
 class PictureFile {
  public:
   explicit PictureFile(std::string name);

@@ -3,10 +3,9 @@
 // proportional to its power. Paths of distant sources start on portals (portals.h), by projected area.
 //
 // An "even" source emits the same radiance from all points in all directions. Spotlights are not even, nor
-// are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates (a
-// point and a direction) are sampled, and one is selected with a probability proportional to its power
-// (resampled importance sampling: Talbot, Cline and Egbert 2005, "Importance resampling for global
-// illumination").
+// are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates
+// (point and direction) are sampled, and one is selected in proportion to its power (resampled importance
+// sampling: Talbot, Cline and Egbert 2005, "Importance resampling for global illumination").
 #include "light/surface_point.h"
 #include "light_paths/plain_surfaces.h"
 

@@ -44,9 +44,8 @@ struct VertexLight {
   // wall close to a ceiling that mirrors light: relative variance without this candidate 39; with the value
   // 1, 2, 4, 8, 16: 5.1, 3.5, 2.0, 4.1, 8.
   RSPHERE_TUNED(VertexLight, double, kInCube, 4);
-  // When vertices are clustered, this is the distance that is assigned to opposite normals, in units of twice
-  // the diagonal of the box around all vertices. With .12, the variance of this light is up to three times as
-  // large.
+  // When vertices are clustered: the distance assigned to opposite normals, in units of twice the diagonal of
+  // the box around all vertices. With .12, the variance of this light is up to three times as large.
   RSPHERE_TUNED(VertexLight, double, kFacing, .05);
   // Number of candidates that get a shadow ray. 8 has no effect beyond noise.
   RSPHERE_TUNED(VertexLight, int, kJoined, 2);

@@ -140,9 +140,8 @@ struct Blockers::Way {
   bool narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
 };
 
-// Narrows each box to the part that is visible from the other box through the holes of an area. Returns true
-// if nothing is visible. axis: perpendicular to the area; cuts: where segments between the boxes' corners
-// intersect it.
+// Narrows each box to the part visible from the other through the holes of an area. True if nothing is
+// visible. axis: perpendicular to the area; cuts: where segments between the boxes' corners intersect it.
 bool Blockers::Way::narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
                                   double inset) {
   Box3d all, open;

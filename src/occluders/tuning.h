@@ -19,10 +19,9 @@ struct HiddenBoxes {
   // the region's width is divided first, but at most kMostUntested times.
   static constexpr double kSameRegion = .99;
   static constexpr int kMostUntested = 8;
-  // A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in
-  // it is this many times as far away as the nearest. With a million lamps below a bare floor, each ray
-  // examines 340 lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these
-  // divisions.
+  // A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place is
+  // this many times as far as the nearest. With a million lamps below a bare floor, each ray examines 340
+  // lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these divisions.
   static constexpr double kSameDistance = 5;
   // Number of boxes that are examined to decide whether a region is divided.
   static constexpr size_t kProbes = 32;

@@ -58,8 +58,7 @@ struct SampledSet {
   Moments moments(const BaseSet& base, const std::optional<V3d>& gaze = {}) const;
 };
 
-// Traces each direction once and gives it its solid angle (sr). Direction i uses random numbers of stream i
-// of the set.
+// Traces each direction once, with its solid angle (sr). Direction i uses the set's random stream i.
 SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
                      std::span<const double> solidAngles, bool keepRays, PathTracer& tracer);
 

@@ -52,9 +52,8 @@ struct SphereOptions {
 
   // The rays of each patch of the coarse solution (RayOptions::leastForPatches). Their number grows with the
   // number of directions and with the accuracy, so that the error common to all points falls with the error
-  // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): the actual errors of answers are
-  // .8 to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their
-  // number.
+  // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): actual errors of answers are .8
+  // to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their number.
   int raysForPatches() const {
     constexpr double kUsual = 1024, kUsualDirections = 2048, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;

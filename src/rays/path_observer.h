@@ -16,8 +16,7 @@ struct ShownSource {
   bool operator==(const ShownSource&) const = default;
 };
 
-// Called for every finished ray of a path (rtrace's -ot, -oT). The result is not yet attenuated by the medium
-// along the ray.
+// Called for every finished ray of a path (rtrace's -ot, -oT). The result is not yet attenuated by a medium.
 using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
 // Selects the shadow rays that the observer is called for.

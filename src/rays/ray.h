@@ -66,8 +66,7 @@ struct RayQuery {
 };
 
 // Whether a path has met only "known" surfaces, which bidirectional estimation can handle (PlainSurfaces),
-// and if so, whether paths from both ends estimate the reflected light that arrives at the last diffuse
-// surface.
+// and if so, whether paths from both ends estimate the reflected light at the last diffuse surface.
 enum class Known : uint8_t {
   no,
   joined,   // they do: light vertices there are connected to the eye, or to the previous surface

@@ -12,8 +12,7 @@ namespace rsphere {
 
 // The mean reflectance of surfaces: a usual value for rooms, which RADIANCE uses, too. With interpolated
 // light, it is the weight of each indirect ray relative to its parent, instead of the small weight of one
-// among many directions. The weight limit then ends paths after some bounces, independently of the number of
-// directions.
+// among many directions. The weight limit then ends paths after some bounces, for any number of directions.
 inline constexpr double kMeanReflectance = .5;
 
 // A diffuse material of reflectance pi. Its radiance, pi times the mean incident radiance, is equal to the

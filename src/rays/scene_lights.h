@@ -41,8 +41,7 @@ class SceneLights : public LightSources {
     const auto number = luminous_.numberOf(surface);
     return number ? LightId(*number) : kNone;
   }
-  // The radiance of a light source if it does not depend on point and direction; null if it must be computed
-  // for each ray.
+  // The radiance of a light source if it is independent of point and direction; null: it depends on the ray.
   const Radiance* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }

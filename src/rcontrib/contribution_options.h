@@ -43,8 +43,7 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
 // Describes rcontrib for parseCompanion(), with ContributionOptions.
 const Companion& contributionCompanion();
 
-// Completes options that depend on each other. Throws rad::Error if they contradict each other or name no
-// modifier.
+// Completes options that depend on others. Throws rad::Error if they contradict others or name no modifier.
 void finish(ContributionOptions& options);
 
 }  // namespace rsphere

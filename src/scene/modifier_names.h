@@ -15,8 +15,7 @@ namespace rsphere {
 std::string hintOfModifier(const Scene& scene, std::string_view name);
 
 // Warns, in one line, if some of the names are the modifier of no surface: 'no surface has the modifier
-// "sopt" (-m), nor 2 others of 5; the nearest is "spot"'. option: with which the names were given; empty: not
-// shown.
+// "sopt" (-m), nor 2 others of 5; the nearest is "spot"'. option: of the names; empty: not shown.
 void warnOfMissingModifiers(const Scene& scene, std::span<const std::string> names, std::string_view option,
                             const rad::Warn& warn);
 

@@ -160,8 +160,7 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
                double nearest) {
   const V3d m = origin - sphere.center;
   const double b = m.dot(direction);
-  // Computed from the distance between line and centre, because b^2 - c loses all accuracy for a small sphere
-  // far away.
+  // Computed from the distance of line and centre, because b^2 - c is inaccurate for a small sphere far away.
   const V3d closest = m - b * direction;
   const double discriminant = sphere.radius * sphere.radius - closest.length2();
   if (!(discriminant >= 0)) return false;

@@ -191,8 +191,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   return images;
 }
 
-// Sets solidAngle, filled and region of an image as seen from an eye. window: silhouette of its mirror; null:
-// seen directly.
+// Sets solidAngle, filled and region of an image seen from an eye. window: silhouette of its mirror, or null.
 void SeenSources::setExtent(Image& image, const V3d& eye, const Silhouette* window) const {
   if (isSensor(prepared_, image.source)) {
     V3d direction;

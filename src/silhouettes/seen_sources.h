@@ -68,8 +68,7 @@ class SeenSources {
   // is one in each cell of a grid of equal solid angles. For an image that is seen directly, shadow rays
   // (tuning::SeenSources::kShadowsAlong) measure the visible fraction of the cell, and one of the
   // unobstructed ones is traced. If nothing hides an image, the solid angles of its directions sum to its
-  // solid angle: exactly for polygons, spheres and distant sources, within 0.1% for others. The estimate is
-  // unbiased.
+  // solid angle: exactly for polygons, spheres and distant sources, within 0.1% for others. No bias.
   std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:

@@ -213,8 +213,7 @@ void VoronoiWorkspace::Data::setFlatAreas() {
   std::array<double, 3> cell = {kSphere, kSphere / 2, kSphere / 2};
   if (few.size() == 2) cell[0] = kSphere / 2;
   if (few.size() == 3) {
-    // Both sides of the plane triangle are faces of the hull, so that a cell is 2 pi minus its two angles
-    // (kites.h).
+    // Both sides of the triangle are faces of the hull: a cell is 2 pi minus its two angles (kites.h).
     for (int i = 0; i < 3; ++i) {
       const long double angle = hullAngle(sites[few[(i + 1) % 3]], sites[few[(i + 2) % 3]], sites[few[i]]);
       cell[i] = static_cast<double>(2 * (std::numbers::pi_v<long double> - angle));

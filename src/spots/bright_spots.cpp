@@ -244,8 +244,7 @@ void BrightSpots::keep(const Spot& spot) {
   spots_.power[i] = static_cast<float>(spot.power);
 }
 
-// A spot is treated as a small flat surface with the spot's normal. Spots that contain the point or are near
-// it are ignored.
+// A spot is treated as a small flat surface with its normal. Spots around or near the point are ignored.
 RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const AimFrom& from, Aim& aim) const {
   const auto& [point, front, rays, all] = from;
   const auto atX = static_cast<float>(point.x - spots_.origin.x),

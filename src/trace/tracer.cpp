@@ -290,8 +290,7 @@ class Tracer::Tree {
     radius_ = bounds_.size().length() / 2;
     samePlace_ = samePlaceIn(bounds_);
     // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding of its origin
-    // moves it by at most 2^-23 radius per coordinate, and rounding of its direction by 2^-22 radius over
-    // that length.
+    // moves it by at most 2^-23 radius per coordinate, rounding of its direction by 2^-22.
     padding_ = radius_ * 0x1p-21;
     tree_ = rtcNewScene(device);
     rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);

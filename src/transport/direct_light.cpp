@@ -81,8 +81,7 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 
 // Sets `value` to the radiance of a source sample that arrives at the receiver; false if none arrives.
 // to.value: the radiance without occlusion. If the shadow ray has to be followed through surfaces that may
-// transmit light, samples of a lobe do not estimate this light, so that their part is added back to
-// to.coefficient.
+// transmit light, samples of a lobe do not estimate this light; their part is added back to to.coefficient.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];

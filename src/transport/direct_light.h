@@ -39,8 +39,7 @@ class DirectLight : PathPart {
 
   // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter the radiance already is, the
   // fewer sources are tested for shadows. front: normal of a surface that transmits no light, behind which
-  // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the
-  // light.
+  // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 

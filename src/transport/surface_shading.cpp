@@ -64,8 +64,7 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
   // A shadow ray may leave through a portal and remain known, because light paths carry sunlight that passes
-  // only panes on its way to the portal. Other rays end at the portal, and new paths find the light beyond
-  // it.
+  // only panes before the portal. Other rays end at it, and new paths find the light beyond.
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
       state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
       ((end.context.kinds & kShadow) || !light_.leavesThroughPortal(end)))

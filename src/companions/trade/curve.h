@@ -8,8 +8,7 @@
 
 namespace rsphere {
 
-// Answers (brightness of the mean radiance). The answers to all points in repeat r are at [r * points, (r +
-// 1) * points).
+// Answers (brightness of the mean radiance), in repeat r at [r * points, (r + 1) * points).
 struct RepeatedAnswers {
   size_t points = 0;
   std::vector<double> values;
