@@ -216,13 +216,89 @@ class Call {
         perRecord_(static_cast<size_t>(answerer.options.numbersPerRecord())),
         records_(numbers.size() / perRecord_) {}
 
-  void run(const std::function<bool()>& stop);
+  void run(const std::function<bool()>& stop) {
+    answerer_.stop = false;
+    const unsigned threads = threadCount(answerer_.options.threads);
+    claim_ = std::clamp<size_t>(records_ / (kClaims * threads), 1, kLargestClaim);
+    const size_t claims = (records_ + claim_ - 1) / claim_;
+    std::condition_variable changed;
+    unsigned ended = 0;
+    std::exception_ptr ofStop;
+    const auto watch = [&](unsigned started) {
+      std::unique_lock lock(mutex_);
+      while (!changed.wait_for(lock, kAskToStop, [&] { return ended == started; })) {
+        lock.unlock();
+        try {
+          if (!answerer_.stop) answerer_.stop = stop();
+        } catch (...) {
+          ofStop = std::current_exception();
+          answerer_.stop = true;
+        }
+        lock.lock();
+      }
+    };
+    const auto answerSome = [&](unsigned worker) {
+      work(worker);
+      const std::lock_guard lock(mutex_);
+      ++ended;
+      changed.notify_one();
+    };
+    runOnThreads(static_cast<unsigned>(std::min<size_t>(threads, claims)), answerSome, {},
+                 stop ? watch : std::function<void(unsigned)>());
+    if (ofStop) std::rethrow_exception(ofStop);
+    if (fault_) std::rethrow_exception(fault_);
+  }
 
  private:
-  void work(unsigned worker);
-  void answer(size_t index, unsigned worker, std::string& bytes);
-  Record record(size_t index) const;
-  void fail(size_t index);
+  void work(unsigned worker) {
+    std::string bytes;
+    for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
+      for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
+        // Records before a faulty one are still answered, so that the reported error is always the first,
+        // regardless of threads.
+        if (i > faultAt_) return;
+        try {
+          if (answerer_.stop) throw Stopped();
+          answer(i, worker, bytes);
+        } catch (...) {
+          fail(i);
+        }
+      }
+  }
+
+  void answer(size_t index, unsigned worker, std::string& bytes) {
+    for (const double number : numbers_.subspan(index * perRecord_, perRecord_))
+      if (!std::isfinite(number))
+        throw rad::Error(fmt::format("{}[{}]: {} is not a finite number",
+                                     answerer_.options.sphere.glare.wanted ? "eyes"
+                                     : answerer_.options.sphereMode        ? "points"
+                                                                           : "rays",
+                                     index, number));
+    bytes.clear();
+    answerer_.answer(record(index), worker, bytes);
+    keep_(index, bytes);
+  }
+
+  Record record(size_t index) const {
+    static constexpr std::array<double, 6> kNone{};
+    const auto numbers = [this](size_t i) { return numbers_.subspan(i * perRecord_, perRecord_); };
+    Record record;
+    record.index = index;
+    record.numbers = numbers(index);
+    record.bogus = !answerer_.options.sphereMode && hasNoDirection(record.numbers);
+    if (!record.bogus) return record;
+    while (index > 0 && hasNoDirection(numbers(index))) --index;
+    record.numbers = hasNoDirection(numbers(index)) ? std::span<const double>(kNone) : numbers(index);
+    return record;
+  }
+
+  // Stores the current exception, unless an earlier record has one.
+  void fail(size_t index) {
+    const std::lock_guard lock(mutex_);
+    if (index > faultAt_) return;
+    faultAt_ = index;
+    fault_ = std::current_exception();
+  }
 
   Answerer& answerer_;
   const std::span<const double> numbers_;
@@ -234,89 +310,6 @@ class Call {
   std::exception_ptr fault_;
   std::atomic<size_t> faultAt_ = std::numeric_limits<size_t>::max();
 };
-
-void Call::run(const std::function<bool()>& stop) {
-  answerer_.stop = false;
-  const unsigned threads = threadCount(answerer_.options.threads);
-  claim_ = std::clamp<size_t>(records_ / (kClaims * threads), 1, kLargestClaim);
-  const size_t claims = (records_ + claim_ - 1) / claim_;
-  std::condition_variable changed;
-  unsigned ended = 0;
-  std::exception_ptr ofStop;
-  const auto watch = [&](unsigned started) {
-    std::unique_lock lock(mutex_);
-    while (!changed.wait_for(lock, kAskToStop, [&] { return ended == started; })) {
-      lock.unlock();
-      try {
-        if (!answerer_.stop) answerer_.stop = stop();
-      } catch (...) {
-        ofStop = std::current_exception();
-        answerer_.stop = true;
-      }
-      lock.lock();
-    }
-  };
-  const auto answerSome = [&](unsigned worker) {
-    work(worker);
-    const std::lock_guard lock(mutex_);
-    ++ended;
-    changed.notify_one();
-  };
-  runOnThreads(static_cast<unsigned>(std::min<size_t>(threads, claims)), answerSome, {},
-               stop ? watch : std::function<void(unsigned)>());
-  if (ofStop) std::rethrow_exception(ofStop);
-  if (fault_) std::rethrow_exception(fault_);
-}
-
-void Call::work(unsigned worker) {
-  std::string bytes;
-  for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
-    for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
-      // Records before a faulty one are still answered, so that the reported error is always the first,
-      // regardless of threads.
-      if (i > faultAt_) return;
-      try {
-        if (answerer_.stop) throw Stopped();
-        answer(i, worker, bytes);
-      } catch (...) {
-        fail(i);
-      }
-    }
-}
-
-void Call::answer(size_t index, unsigned worker, std::string& bytes) {
-  for (const double number : numbers_.subspan(index * perRecord_, perRecord_))
-    if (!std::isfinite(number))
-      throw rad::Error(fmt::format("{}[{}]: {} is not a finite number",
-                                   answerer_.options.sphere.glare.wanted ? "eyes"
-                                   : answerer_.options.sphereMode        ? "points"
-                                                                         : "rays",
-                                   index, number));
-  bytes.clear();
-  answerer_.answer(record(index), worker, bytes);
-  keep_(index, bytes);
-}
-
-Record Call::record(size_t index) const {
-  static constexpr std::array<double, 6> kNone{};
-  const auto numbers = [this](size_t i) { return numbers_.subspan(i * perRecord_, perRecord_); };
-  Record record;
-  record.index = index;
-  record.numbers = numbers(index);
-  record.bogus = !answerer_.options.sphereMode && hasNoDirection(record.numbers);
-  if (!record.bogus) return record;
-  while (index > 0 && hasNoDirection(numbers(index))) --index;
-  record.numbers = hasNoDirection(numbers(index)) ? std::span<const double>(kNone) : numbers(index);
-  return record;
-}
-
-// Stores the current exception, unless an earlier record has one.
-void Call::fail(size_t index) {
-  const std::lock_guard lock(mutex_);
-  if (index > faultAt_) return;
-  faultAt_ = index;
-  fault_ = std::current_exception();
-}
 
 // A letter of -o, and where its answers are stored.
 struct Column {
@@ -441,20 +434,97 @@ struct Scene::Implementation {
   Implementation(rsphere::Scene&& read, std::vector<std::string> goals)
       : scene_(std::make_shared<const rsphere::Scene>(std::move(read))), goals_(std::move(goals)) {}
 
-  std::unique_ptr<Answerer> take(const CommandOptions& given);
-  void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer);
+  // An answerer for these options: the idle one or a new one. A new one uses the prepared scene of another
+  // answerer if it can (CommandOptions::sceneKey).
+  std::unique_ptr<Answerer> take(const CommandOptions& given) {
+    {
+      const std::lock_guard lock(mutex_);
+      Idle& idle = given.options.sphereMode ? points_ : rays_;
+      if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
+      // Frees the memory for the last options before that for new ones is allocated.
+      if (!preparedFor(given.sceneKey)) idle.answerer.reset();
+    }
+    return std::make_unique<Answerer>(prepare(given), given.options);
+  }
+
+  void giveBack(const std::string& key, std::unique_ptr<Answerer> answerer) {
+    if (!answerer->options.ray.ambientFile.empty())
+      return;  // -af: other processes may read the file between calls
+    const std::lock_guard lock(mutex_);
+    Idle& idle = answerer->options.sphereMode ? points_ : rays_;
+    idle = {key, std::move(answerer)};
+  }
 
   template <typename Answers>
   Answers answer(std::span<const double> numbers, const Options& options, Records records,
                  const Goals& goals = {});
 
   Contributions contributions(std::span<const double> numbers, const std::vector<std::string>& of,
-                              const ContributionOptions& options);
+                              const ContributionOptions& options) {
+    return passingWarnings(options, [&](std::shared_ptr<PreparedScene>& prepared, const rad::Warn& warn) {
+      if (options.samples < 1)
+        throw rad::Error(fmt::format("{} samples: expected at least 1", options.samples));
+      std::vector<TrackedModifier> modifiers = trackedModifiers(of, options.bins);
+      const CommandOptions given = commandOptions(options, Records::contributions);
+      for (const std::string& remark : given.options.messages.remarks) warn(remark);
+      prepared = prepare(given);
+      {
+        const std::lock_guard lock(mutex_);
+        ofContributions_ = prepared;
+      }
+      Contributions result;
+      result.modifiers = of;
+      result.bins = modifiers.front().bins;
+      Answerer answerer(prepared, given.options, std::move(modifiers), options);
+      const size_t columns = answerer.contributions->numbers();
+      result.size = numbers.size() / static_cast<size_t>(given.options.numbersPerRecord());
+      std::vector<Column> all{{'v', &result.value}};
+      if (answerer.contributions->hasErrors()) all.push_back({'e', &result.standardError});
+      for (Column& column : all) {
+        column.quantity->columns = columns;
+        column.quantity->numbers.resize(result.size * columns);
+      }
+      const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
+      Call(answerer, numbers, keep).run(options.stop);
+      for (const std::string& text :
+           answerer.summary->warnings(given.options, prepared->transport.prepared()))
+        warn(text);
+      return result;
+    });
+  }
 
  private:
-  std::shared_ptr<PreparedScene> preparedFor(const std::string& sceneKey) const;
-  std::shared_ptr<PreparedScene> prepare(const CommandOptions& given);
-  std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const;
+  // REQUIRES: the mutex is locked.
+  std::shared_ptr<PreparedScene> preparedFor(const std::string& sceneKey) const {
+    for (const auto& [key, prepared] : prepared_)
+      if (key == sceneKey)
+        if (auto shared = prepared.lock()) return shared;
+    return nullptr;
+  }
+
+  std::shared_ptr<PreparedScene> prepare(const CommandOptions& given) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (auto shared = preparedFor(given.sceneKey)) return shared;
+    }
+    auto shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
+    const std::lock_guard lock(mutex_);
+    std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
+    prepared_.emplace_back(given.sceneKey, shared);
+    return shared;
+  }
+
+  // The scene as it was read, or a copy with other goals or contributors.
+  std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const {
+    if (!options.separate) return scene_;
+    auto copy = std::make_shared<rsphere::Scene>(*scene_);
+    std::vector<std::string> goals = options.goals;
+    if (!goals.empty() || !options.sensors.empty()) setGoals(*copy, goals);
+    addSensors(*copy, options.sensors);
+    for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
+    separateContributors(*copy, goals.empty() ? goals_ : goals);
+    return copy;
+  }
 
   const std::shared_ptr<const rsphere::Scene> scene_;
   const std::vector<std::string> goals_;
@@ -470,59 +540,6 @@ struct Scene::Implementation {
   Idle rays_, points_;
   std::shared_ptr<PreparedScene> ofContributions_;  // of the last call
 };
-
-// An answerer for these options: the idle one or a new one. A new one uses the prepared scene of another
-// answerer if it can (CommandOptions::sceneKey).
-std::unique_ptr<Answerer> Scene::Implementation::take(const CommandOptions& given) {
-  {
-    const std::lock_guard lock(mutex_);
-    Idle& idle = given.options.sphereMode ? points_ : rays_;
-    if (idle.answerer && idle.key == given.key) return std::move(idle.answerer);
-    // Frees the memory for the last options before that for new ones is allocated.
-    if (!preparedFor(given.sceneKey)) idle.answerer.reset();
-  }
-  return std::make_unique<Answerer>(prepare(given), given.options);
-}
-
-// REQUIRES: the mutex is locked.
-std::shared_ptr<PreparedScene> Scene::Implementation::preparedFor(const std::string& sceneKey) const {
-  for (const auto& [key, prepared] : prepared_)
-    if (key == sceneKey)
-      if (auto shared = prepared.lock()) return shared;
-  return nullptr;
-}
-
-std::shared_ptr<PreparedScene> Scene::Implementation::prepare(const CommandOptions& given) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (auto shared = preparedFor(given.sceneKey)) return shared;
-  }
-  auto shared = std::make_shared<PreparedScene>(sceneFor(given.options), given.options);
-  const std::lock_guard lock(mutex_);
-  std::erase_if(prepared_, [](const auto& entry) { return entry.second.expired(); });
-  prepared_.emplace_back(given.sceneKey, shared);
-  return shared;
-}
-
-// The scene as it was read, or a copy with other goals or contributors.
-std::shared_ptr<const rsphere::Scene> Scene::Implementation::sceneFor(const rsphere::Options& options) const {
-  if (!options.separate) return scene_;
-  auto copy = std::make_shared<rsphere::Scene>(*scene_);
-  std::vector<std::string> goals = options.goals;
-  if (!goals.empty() || !options.sensors.empty()) setGoals(*copy, goals);
-  addSensors(*copy, options.sensors);
-  for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
-  separateContributors(*copy, goals.empty() ? goals_ : goals);
-  return copy;
-}
-
-void Scene::Implementation::giveBack(const std::string& key, std::unique_ptr<Answerer> answerer) {
-  if (!answerer->options.ray.ambientFile.empty())
-    return;  // -af: other processes may read the file between calls
-  const std::lock_guard lock(mutex_);
-  Idle& idle = answerer->options.sphereMode ? points_ : rays_;
-  idle = {key, std::move(answerer)};
-}
 
 template <typename Answers>
 Answers Scene::Implementation::answer(std::span<const double> numbers, const Options& options,
@@ -559,40 +576,6 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
       warn(text);
     giveBack(given.key, std::move(answerer));
     return answers;
-  });
-}
-
-Contributions Scene::Implementation::contributions(std::span<const double> numbers,
-                                                   const std::vector<std::string>& of,
-                                                   const ContributionOptions& options) {
-  return passingWarnings(options, [&](std::shared_ptr<PreparedScene>& prepared, const rad::Warn& warn) {
-    if (options.samples < 1)
-      throw rad::Error(fmt::format("{} samples: expected at least 1", options.samples));
-    std::vector<TrackedModifier> modifiers = trackedModifiers(of, options.bins);
-    const CommandOptions given = commandOptions(options, Records::contributions);
-    for (const std::string& remark : given.options.messages.remarks) warn(remark);
-    prepared = prepare(given);
-    {
-      const std::lock_guard lock(mutex_);
-      ofContributions_ = prepared;
-    }
-    Contributions result;
-    result.modifiers = of;
-    result.bins = modifiers.front().bins;
-    Answerer answerer(prepared, given.options, std::move(modifiers), options);
-    const size_t columns = answerer.contributions->numbers();
-    result.size = numbers.size() / static_cast<size_t>(given.options.numbersPerRecord());
-    std::vector<Column> all{{'v', &result.value}};
-    if (answerer.contributions->hasErrors()) all.push_back({'e', &result.standardError});
-    for (Column& column : all) {
-      column.quantity->columns = columns;
-      column.quantity->numbers.resize(result.size * columns);
-    }
-    const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
-    Call(answerer, numbers, keep).run(options.stop);
-    for (const std::string& text : answerer.summary->warnings(given.options, prepared->transport.prepared()))
-      warn(text);
-    return result;
   });
 }
 
