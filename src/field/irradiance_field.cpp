@@ -100,7 +100,43 @@ class IrradianceField::Cache {
         finestShare_(std::min(accuracy_, .5) / (options.resolution > 0 ? options.resolution : kUnlimited)),
         bound_(options.memory > 0 ? static_cast<size_t>(options.memory * 1e6) : kNoBound) {}
 
-  bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light);
+  bool find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays, GatheredLight& light) {
+    auto chart = SurfaceChart::of(scene_, grid_, place);
+    if (!chart) return false;
+    enter(reader);
+    const Asked asked{*reader, rays};
+    if (!hasOwnCells(*chart, asked)) {
+      if (chart->isCurved()) return false;
+      chart = SurfaceChart::ofPlane(grid_, place);
+    }
+    const double tolerance = accuracy_ / tuning::IrradianceField::kAllowed;
+    light = {};
+    double missing = 1, allowed = 1;
+    int beyond = 0;
+    double gap = 0;
+    for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
+         ++level, allowed *= tuning::IrradianceField::kNoneAbove) {
+      const bool finest =
+          grid_.side(level) <= tuning::IrradianceField::kFinestInGap * gap && isFinest(*chart, level, asked);
+      beyond += finest;
+      SitesAround around;
+      if (!look(*chart, place, level, asked, around)) continue;
+      double extrapolationError = 0;
+      const GatheredLight here = around.at(place.point, extrapolationError);
+      const double roughness =
+          std::max(around.roughness(tolerance), extrapolationError / tolerance) / allowed;
+      const double share = finest ? 1 : shareOf(roughness);
+      blend(light, here, static_cast<float>(missing * share));
+      missing *= 1 - share;
+      if (missing <= 0) return true;
+    }
+    if (missing >= 1) return false;
+    const GatheredLight found = light;
+    light = {};
+    blend(light, found, static_cast<float>(1 / (1 - missing)));
+    return true;
+  }
+
   void keepIn(std::unique_ptr<AmbientFile> file) { stored_.emplace(std::move(file)); }
   bool isBounded() const { return bound_ != kNoBound; }
   size_t sitesMade() const { return made_.load(std::memory_order_relaxed); }
@@ -113,15 +149,144 @@ class IrradianceField::Cache {
     FieldRays& rays;
   };
 
-  void enter(FieldReader& memory);
-  Site& siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked);
-  const GatheredLight& lightOf(Site& site, const Asked& asked);
+  // Starts a thread's query in the newest memory. Replaces that memory if it is full.
+  void enter(FieldReader& memory) {
+    if (memory && memory.get() == newest_.load(std::memory_order_relaxed) && !memory->isFull()) return;
+    const std::shared_ptr<FieldMemory> left = std::move(memory);
+    std::shared_ptr<FieldMemory> full;  // freed outside the lock
+    const std::lock_guard lock(replacing_);
+    if (!kept_ || kept_->isFull()) {
+      full = std::move(kept_);
+      // Half of the bound, since other threads may still read the previous memory; less if several old
+      // memories have not been freed.
+      const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
+      const size_t limit =
+          bound_ == kNoBound ? kNoBound : std::min(bound_ / 2, bound_ - std::min(bound_, reserved));
+      kept_ = std::make_shared<FieldMemory>(limit, use_);
+      newest_.store(kept_.get(), std::memory_order_relaxed);
+    }
+    memory = kept_;
+  }
+
+  Site& siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked) {
+    return asked.memory.sites.findOrAdd(key, [&](Site& made) {
+      made.key = key;
+      if (const auto at = chart.site(grid_, key)) {
+        made.usable = true;
+        made.at = *at;
+        const Surroundings seen = asked.rays.surroundings(*at);
+        made.reach = seen.harmonicMean;
+        made.finest =
+            finestShare_ * std::min(grid_.size, tuning::IrradianceField::kRoom * seen.rootMeanSquare);
+        made.smallObjectNear = grid_.side(key.level) > made.finest &&
+                               asked.rays.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
+      }
+      asked.memory.add(sizeof(Site) + kNode);
+      made_.fetch_add(1, std::memory_order_relaxed);
+    });
+  }
+
+  const GatheredLight& lightOf(Site& site, const Asked& asked) {
+    if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
+    site.begun.store(true, std::memory_order_relaxed);
+    const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
+    auto gathered = std::make_unique<GatheredLight>(
+        known ? *known
+              : asked.rays.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
+    const GatheredLight* first = nullptr;
+    if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
+    const GatheredLight& light = *gathered.release();
+    const size_t bands = light.bands ? light.bands.scheme().count() * sizeof(double) : 0;
+    asked.memory.add(sizeof(GatheredLight) + bands + kBlock);
+    if (stored_ && !known) stored_->add(site.key, light);
+    return light;
+  }
+
+  // Finds the sites of a level that see the place, and their light. False if there are none or, on a chart
+  // that several surfaces share, too few.
   bool look(const SurfaceChart& chart, const SurfacePlace& place, int level, const Asked& asked,
-            SitesAround& around);
-  bool hasOwnCells(const SurfaceChart& chart, const Asked& asked);
-  int levelFrom(int level, const SurfaceChart& chart, const Asked& asked);
-  int firstLevel(const SurfaceChart& chart, const SurfacePlace& place, const Asked& asked, double& gap);
-  bool isFinest(const SurfaceChart& chart, int level, const Asked& asked);
+            SitesAround& around) {
+    // Coordinates in cells, relative to the middle of a cell.
+    const double a = chart.u() / chart.stepU(grid_, level) - .5,
+                 b = chart.v() / chart.stepV(grid_, level) - .5;
+    const auto i = static_cast<int64_t>(std::floor(a)), j = static_cast<int64_t>(std::floor(b));
+    const double across = a - std::floor(a), along = b - std::floor(b);
+    around = {};
+    std::array<Site*, 4> sites;
+    for (int c = 0; c < 4; ++c) {
+      const double weight = ((c & 1) ? across : 1 - across) * ((c >> 1) ? along : 1 - along);
+      if (!(weight > kNegligible)) continue;
+      Site* const site = &siteOf(chart, chart.cell(grid_, level, i + (c & 1), j + (c >> 1)), asked);
+      // At the edge of a surface, several of the four sites may be the same.
+      int k = 0;
+      while (k < around.count && sites[k] != site) ++k;
+      if (k == around.count) {
+        if (!site->usable) continue;
+        const V3d way = place.point - site->at.point;
+        // High enough that the surface's own curvature does not block the view.
+        const double height =
+            grid_.lift +
+            (chart.isCurved() ? kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
+        if (!asked.rays.sees(site->at.point + (height - grid_.lift) * site->at.normal,
+                             place.point + height * place.normal))
+          continue;
+        sites[around.count] = site;
+        around.site[around.count] = &site->at;
+        around.weight[around.count++] = 0;
+      }
+      around.weight[k] += weight;
+      around.served += weight;
+    }
+    if (around.count == 0 || (chart.isShared() && around.served < kAllServed)) return false;
+    // Sites that another thread is gathering come last, since that thread may finish in the meantime.
+    for (int k = 0; k < around.count; ++k) {
+      Site& site = *sites[k];
+      const bool busy =
+          site.begun.load(std::memory_order_relaxed) && !site.light.load(std::memory_order_relaxed);
+      around.light[k] = busy ? nullptr : &lightOf(site, asked);
+    }
+    for (int k = 0; k < around.count; ++k)
+      if (!around.light[k]) around.light[k] = &lightOf(*sites[k], asked);
+    return true;
+  }
+
+  // Whether a surface is large enough for separate cells.
+  bool hasOwnCells(const SurfaceChart& chart, const Asked& asked) {
+    if (chart.extent() >= finestShare_ * grid_.size) return true;
+    const Site& site =
+        siteOf(chart, chart.cellAt(grid_, grid_.levelOf(chart.extent()), chart.u(), chart.v()), asked);
+    return site.usable && chart.extent() >= site.finest;
+  }
+
+  // The widest cells at this level or finer that the surroundings of their sites allow. Returns their level.
+  int levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
+    for (; !isFinest(chart, level, asked); ++level) {
+      const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
+      if (site.usable && !site.smallObjectNear &&
+          grid_.side(level) <= tuning::IrradianceField::kRoom * accuracy_ * site.reach)
+        break;
+    }
+    return level;
+  }
+
+  // The level of the widest cells that the surroundings of the place allow. gap: set to the height of the gap
+  // that contains the place, because sites of wide cells may lie outside of the gap.
+  int firstLevel(const SurfaceChart& chart, const SurfacePlace& place, const Asked& asked, double& gap) {
+    const int level =
+        levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
+    gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
+                               grid_.side(level) / tuning::IrradianceField::kFinestInGap);
+    // If cells are wider than a gap is high, as below a narrow shelf, all their sites may lie outside of it.
+    const int resolving = grid_.levelOf(gap);
+    return resolving > level ? levelFrom(resolving, chart, asked) : level;
+  }
+
+  // Whether the cells of a level are as fine as the surroundings of the place require.
+  bool isFinest(const SurfaceChart& chart, int level, const Asked& asked) {
+    if (level >= CellGrid::kLevels) return true;
+    const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
+    return grid_.side(level) <= (site.usable ? site.finest : finestShare_ * grid_.size);
+  }
 
   const Scene& scene_;
   CellGrid grid_;
@@ -136,181 +301,6 @@ class IrradianceField::Cache {
   std::atomic<size_t> made_{0};
   std::optional<StoredSites> stored_;
 };
-
-// Starts a thread's query in the newest memory. Replaces that memory if it is full.
-void IrradianceField::Cache::enter(FieldReader& memory) {
-  if (memory && memory.get() == newest_.load(std::memory_order_relaxed) && !memory->isFull()) return;
-  const std::shared_ptr<FieldMemory> left = std::move(memory);
-  std::shared_ptr<FieldMemory> full;  // freed outside the lock
-  const std::lock_guard lock(replacing_);
-  if (!kept_ || kept_->isFull()) {
-    full = std::move(kept_);
-    // Half of the bound, since other threads may still read the previous memory; less if several old memories
-    // have not been freed.
-    const size_t reserved = use_->reserved.load(std::memory_order_relaxed);
-    const size_t limit =
-        bound_ == kNoBound ? kNoBound : std::min(bound_ / 2, bound_ - std::min(bound_, reserved));
-    kept_ = std::make_shared<FieldMemory>(limit, use_);
-    newest_.store(kept_.get(), std::memory_order_relaxed);
-  }
-  memory = kept_;
-}
-
-Site& IrradianceField::Cache::siteOf(const SurfaceChart& chart, const CellKey& key, const Asked& asked) {
-  return asked.memory.sites.findOrAdd(key, [&](Site& made) {
-    made.key = key;
-    if (const auto at = chart.site(grid_, key)) {
-      made.usable = true;
-      made.at = *at;
-      const Surroundings seen = asked.rays.surroundings(*at);
-      made.reach = seen.harmonicMean;
-      made.finest = finestShare_ * std::min(grid_.size, tuning::IrradianceField::kRoom * seen.rootMeanSquare);
-      made.smallObjectNear = grid_.side(key.level) > made.finest &&
-                             asked.rays.smallObjectNear(*at, grid_.side(key.level), grid_.lift);
-    }
-    asked.memory.add(sizeof(Site) + kNode);
-    made_.fetch_add(1, std::memory_order_relaxed);
-  });
-}
-
-const GatheredLight& IrradianceField::Cache::lightOf(Site& site, const Asked& asked) {
-  if (const GatheredLight* light = site.light.load(std::memory_order_acquire)) return *light;
-  site.begun.store(true, std::memory_order_relaxed);
-  const GatheredLight* const known = stored_ ? stored_->find(site.key) : nullptr;
-  auto gathered = std::make_unique<GatheredLight>(
-      known ? *known
-            : asked.rays.gather(site.at, std::min(site.finest / 2, site.reach / 4), site.key.hash()));
-  const GatheredLight* first = nullptr;
-  if (!site.light.compare_exchange_strong(first, gathered.get(), std::memory_order_acq_rel)) return *first;
-  const GatheredLight& light = *gathered.release();
-  const size_t bands = light.bands ? light.bands.scheme().count() * sizeof(double) : 0;
-  asked.memory.add(sizeof(GatheredLight) + bands + kBlock);
-  if (stored_ && !known) stored_->add(site.key, light);
-  return light;
-}
-
-// Finds the sites of a level that see the place, and their light. False if there are none or, on a chart that
-// several surfaces share, too few.
-bool IrradianceField::Cache::look(const SurfaceChart& chart, const SurfacePlace& place, int level,
-                                  const Asked& asked, SitesAround& around) {
-  // Coordinates in cells, relative to the middle of a cell.
-  const double a = chart.u() / chart.stepU(grid_, level) - .5, b = chart.v() / chart.stepV(grid_, level) - .5;
-  const auto i = static_cast<int64_t>(std::floor(a)), j = static_cast<int64_t>(std::floor(b));
-  const double across = a - std::floor(a), along = b - std::floor(b);
-  around = {};
-  std::array<Site*, 4> sites;
-  for (int c = 0; c < 4; ++c) {
-    const double weight = ((c & 1) ? across : 1 - across) * ((c >> 1) ? along : 1 - along);
-    if (!(weight > kNegligible)) continue;
-    Site* const site = &siteOf(chart, chart.cell(grid_, level, i + (c & 1), j + (c >> 1)), asked);
-    // At the edge of a surface, several of the four sites may be the same.
-    int k = 0;
-    while (k < around.count && sites[k] != site) ++k;
-    if (k == around.count) {
-      if (!site->usable) continue;
-      const V3d way = place.point - site->at.point;
-      // High enough that the surface's own curvature does not block the view.
-      const double height =
-          grid_.lift +
-          (chart.isCurved() ? kBulge * way.length() * (place.normal - site->at.normal).length() : 0);
-      if (!asked.rays.sees(site->at.point + (height - grid_.lift) * site->at.normal,
-                           place.point + height * place.normal))
-        continue;
-      sites[around.count] = site;
-      around.site[around.count] = &site->at;
-      around.weight[around.count++] = 0;
-    }
-    around.weight[k] += weight;
-    around.served += weight;
-  }
-  if (around.count == 0 || (chart.isShared() && around.served < kAllServed)) return false;
-  // Sites that another thread is gathering come last, since that thread may finish in the meantime.
-  for (int k = 0; k < around.count; ++k) {
-    Site& site = *sites[k];
-    const bool busy =
-        site.begun.load(std::memory_order_relaxed) && !site.light.load(std::memory_order_relaxed);
-    around.light[k] = busy ? nullptr : &lightOf(site, asked);
-  }
-  for (int k = 0; k < around.count; ++k)
-    if (!around.light[k]) around.light[k] = &lightOf(*sites[k], asked);
-  return true;
-}
-
-// Whether a surface is large enough for separate cells.
-bool IrradianceField::Cache::hasOwnCells(const SurfaceChart& chart, const Asked& asked) {
-  if (chart.extent() >= finestShare_ * grid_.size) return true;
-  const Site& site =
-      siteOf(chart, chart.cellAt(grid_, grid_.levelOf(chart.extent()), chart.u(), chart.v()), asked);
-  return site.usable && chart.extent() >= site.finest;
-}
-
-// Whether the cells of a level are as fine as the surroundings of the place require.
-bool IrradianceField::Cache::isFinest(const SurfaceChart& chart, int level, const Asked& asked) {
-  if (level >= CellGrid::kLevels) return true;
-  const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
-  return grid_.side(level) <= (site.usable ? site.finest : finestShare_ * grid_.size);
-}
-
-// The widest cells at this level or finer that the surroundings of their sites allow. Returns their level.
-int IrradianceField::Cache::levelFrom(int level, const SurfaceChart& chart, const Asked& asked) {
-  for (; !isFinest(chart, level, asked); ++level) {
-    const Site& site = siteOf(chart, chart.cellAt(grid_, level, chart.u(), chart.v()), asked);
-    if (site.usable && !site.smallObjectNear &&
-        grid_.side(level) <= tuning::IrradianceField::kRoom * accuracy_ * site.reach)
-      break;
-  }
-  return level;
-}
-
-// The level of the widest cells that the surroundings of the place allow. gap: set to the height of the gap
-// that contains the place, because sites of wide cells may lie outside of the gap.
-int IrradianceField::Cache::firstLevel(const SurfaceChart& chart, const SurfacePlace& place,
-                                       const Asked& asked, double& gap) {
-  const int level =
-      levelFrom(grid_.levelOf(std::min(chart.extent(), tuning::Fields::kOpen * grid_.size)), chart, asked);
-  gap = asked.rays.clearance({place.point + grid_.lift * place.normal, place.normal},
-                             grid_.side(level) / tuning::IrradianceField::kFinestInGap);
-  // If cells are wider than a gap is high, as below a narrow shelf, all their sites may lie outside of it.
-  const int resolving = grid_.levelOf(gap);
-  return resolving > level ? levelFrom(resolving, chart, asked) : level;
-}
-
-bool IrradianceField::Cache::find(const SurfacePlace& place, FieldReader& reader, FieldRays& rays,
-                                  GatheredLight& light) {
-  auto chart = SurfaceChart::of(scene_, grid_, place);
-  if (!chart) return false;
-  enter(reader);
-  const Asked asked{*reader, rays};
-  if (!hasOwnCells(*chart, asked)) {
-    if (chart->isCurved()) return false;
-    chart = SurfaceChart::ofPlane(grid_, place);
-  }
-  const double tolerance = accuracy_ / tuning::IrradianceField::kAllowed;
-  light = {};
-  double missing = 1, allowed = 1;
-  int beyond = 0;
-  double gap = 0;
-  for (int level = firstLevel(*chart, place, asked, gap); beyond <= tuning::Fields::kFinerWhereHidden;
-       ++level, allowed *= tuning::IrradianceField::kNoneAbove) {
-    const bool finest =
-        grid_.side(level) <= tuning::IrradianceField::kFinestInGap * gap && isFinest(*chart, level, asked);
-    beyond += finest;
-    SitesAround around;
-    if (!look(*chart, place, level, asked, around)) continue;
-    double extrapolationError = 0;
-    const GatheredLight here = around.at(place.point, extrapolationError);
-    const double roughness = std::max(around.roughness(tolerance), extrapolationError / tolerance) / allowed;
-    const double share = finest ? 1 : shareOf(roughness);
-    blend(light, here, static_cast<float>(missing * share));
-    missing *= 1 - share;
-    if (missing <= 0) return true;
-  }
-  if (missing >= 1) return false;
-  const GatheredLight found = light;
-  light = {};
-  blend(light, found, static_cast<float>(1 / (1 - missing)));
-  return true;
-}
 
 IrradianceField::IrradianceField(const Scene& scene, const Box3d& bounds, const FieldOptions& options)
     : cache_(std::make_unique<Cache>(scene, bounds, options)) {}
