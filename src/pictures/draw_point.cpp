@@ -196,21 +196,187 @@ class Painter {
         sampling_(transport.prepared().options().sampling),
         sharing_(isLitByLamps(transport.prepared()) ? OfPictures::kSharingByLamps : OfPictures::kSharing) {}
 
-  Raster draw(bool forScreen, double white);
+  Raster draw(bool forScreen, double white) {
+    Pixels pixels = tracePixels();
+    smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
+    smoothLight(pixels.seen, kOfGloss, pixels.gloss);
+    gatherWhereUnknown(pixels);
+    repeatDirect(pixels);
+    smoothDirect(pixels);
+    Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
+    for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));
+    const ToneCurve curve(raster, map_, white);
+    refine(pixels, curve, forScreen, raster);
+    addSmallSources(raster);
+    if (forScreen) toScreen(raster, curve);
+    return raster;
+  }
 
  private:
-  Pixels tracePixels();
-  std::optional<PixelSample> look(double x, double y, uint64_t seed, PixelParts parts);
-  std::optional<PixelSample> middle(int column, int row, PixelParts parts);
-  void gatherWhereUnknown(Pixels& pixels);
-  void repeatDirect(Pixels& pixels);
-  std::vector<bool> uneven(const Raster& raster, const ToneCurve& curve) const;
-  bool gathers(int column, int row) const;
-  std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place);
-  V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays);
-  std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const;
-  void refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster);
-  void addSmallSources(Raster& raster) const;
+  Pixels tracePixels() {
+    Pixels pixels(map_);
+    int traced = 0;
+    for (int sweep = 0; sweep < OfPictures::kSweeps; ++sweep)
+      for (int row = sweep; row < map_.height(); row += OfPictures::kSweeps) {
+        report(kTracingShare * traced++ / map_.height());
+        for (int column = 0; column < map_.width(); ++column) {
+          const bool all = gathers(column, row);
+          if (const auto sample = middle(column, row, all ? PixelParts::all : PixelParts::noIndirect))
+            pixels.set(at(column, row), *sample, all);
+        }
+      }
+    return pixels;
+  }
+
+  // Traces the ray through a position in the picture. Empty outside the rim of a fisheye, and where the ray
+  // hits a small source, because the light of small sources is added later.
+  std::optional<PixelSample> look(double x, double y, uint64_t seed, PixelParts parts) {
+    const auto direction = map_.direction(x, y);
+    if (!direction) return std::nullopt;
+    const PixelSample sample = tracer_.trace(*direction, seed, parts);
+    if (!small_.images.empty() && sources_.isOneStraight(sample.shown, small_.images)) return std::nullopt;
+    return sample;
+  }
+
+  // look() through the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
+  std::optional<PixelSample> middle(int column, int row, PixelParts parts) {
+    const size_t pixel = at(column, row);
+    if (!map_.direction(column + .5, row + .5)) return std::nullopt;
+    auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
+    for (size_t i = 0; !sample && i < OfPictures::kBeside.size(); ++i)
+      sample = look(column + .5 + OfPictures::kBeside[i][0], row + .5 + OfPictures::kBeside[i][1],
+                    streams_.aside(pixel, i), parts);
+    return sample;
+  }
+
+  // Gathers at pixels that smoothing left without indirect light: on small surfaces, none may gather.
+  void gatherWhereUnknown(Pixels& pixels) {
+    for (int row = 0; row < map_.height(); ++row)
+      for (int column = 0; column < map_.width(); ++column) {
+        const size_t pixel = at(column, row);
+        if (pixels.seen.pixels[pixel].material == kNone || pixels.indirect.known[pixel] > 0) continue;
+        if (const auto sample = middle(column, row, PixelParts::all))
+          pixels.indirect.light[pixel] = Imath::V3f(sample->indirect);
+      }
+  }
+
+  // Traces the direct light of noisy soft shadows several times. smoothLight() could not distinguish such
+  // strong noise from the edge of a shadow, and the edge would become ragged.
+  void repeatDirect(Pixels& pixels) {
+    const std::vector<bool> marked = noisyShadows(pixels);
+    for (int row = 0; row < map_.height(); ++row)
+      for (int column = 0; column < map_.width(); ++column) {
+        const size_t pixel = at(column, row);
+        if (!marked[pixel]) continue;
+        V3d sum(pixels.middles[pixel].direct);
+        int count = 1;
+        for (int repeat = 0; repeat < OfPictures::kRepeats; ++repeat) {
+          const auto sample =
+              look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
+          if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
+          sum += sample->direct;
+          ++count;
+        }
+        pixels.direct.light[pixel] = pixels.middles[pixel].direct = Imath::V3f(sum / count);
+      }
+  }
+
+  // Marks the pixels that differ visibly from a neighbor.
+  std::vector<bool> uneven(const Raster& raster, const ToneCurve& curve) const {
+    std::vector<bool> marked(map_.count(), false);
+    const auto differ = [&](size_t a, size_t b) {
+      const V3d of = curve.shown(valueAt(raster, a)), other = curve.shown(valueAt(raster, b));
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(sRgb(of[c]) - sRgb(other[c])) > OfPictures::kVisible) return true;
+      return false;
+    };
+    for (int row = 0; row < map_.height(); ++row)
+      for (int column = 0; column < map_.width(); ++column) {
+        const size_t here = at(column, row);
+        const auto compare = [&](size_t there) {
+          if (differ(here, there)) marked[here] = marked[there] = true;
+        };
+        if (row + 1 < map_.height()) compare(at(column, row + 1));
+        if (column + 1 < map_.width())
+          compare(here + 1);
+        else if (map_.wraps())
+          compare(at(0, row));
+      }
+    return marked;
+  }
+
+  // In each block one pixel gathers. Its position is random, so that no grid is visible.
+  bool gathers(int column, int row) const {
+    const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
+                                         static_cast<uint64_t>(sharing_ * sharing_));
+    return column % sharing_ == chosen % sharing_ && row % sharing_ == chosen / sharing_;
+  }
+
+  // Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels.
+  // Empty outside the rim, and where the ray hits a small source.
+  std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place) {
+    const double x = column + .5 + OfPictures::kAround[place][0],
+                 y = row + .5 + OfPictures::kAround[place][1];
+    const uint64_t seed = streams_.around(at(column, row), place);
+    auto sample = look(x, y, seed, PixelParts::restAlone);
+    if (sample && sample->seen.material != kNone) {
+      if (const auto pixel = alike(pixels, *sample, column, row)) return pixels.complete(*sample, *pixel);
+      sample = look(x, y, seed, PixelParts::all);
+    }
+    return sample ? std::optional(sample->value()) : std::nullopt;
+  }
+
+  V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
+    const size_t pixel = at(column, row);
+    if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
+    for (size_t place = 0; place < OfPictures::kAround.size(); ++place) {
+      if (place == OfPictures::kCorners && !rays.differ()) break;
+      if (const auto value = around(pixels, column, row, place)) rays.add(*value);
+    }
+    return rays.mean().value_or(pixels.value(pixel));
+  }
+
+  // The nearest pixel to this column and row, within one pixel, that shows the surface of the sample.
+  std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const {
+    constexpr int kOrder[9][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1},
+                                  {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+    for (const auto& step : kOrder) {
+      int x = column + step[0];
+      const int y = row + step[1];
+      if (map_.wraps()) x = (x + map_.width()) % map_.width();
+      if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) continue;
+      const size_t pixel = at(x, y);
+      if (mayShare(sample.seen, pixels.seen.pixels[pixel], kOfIndirect) &&
+          sample.sharesGloss == pixels.middles[pixel].sharesGloss)
+        return pixel;
+    }
+    return std::nullopt;
+  }
+
+  void refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster) {
+    const std::vector<bool> marked = uneven(raster, curve);
+    const double all = std::max<double>(1, static_cast<double>(std::ranges::count(marked, true)));
+    const RaysOfPixel none(curve, forScreen);
+    int done = 0;
+    for (int row = 0; row < map_.height(); ++row) {
+      report(kTracingShare + (1 - kTracingShare) * done / (all + 1));
+      for (int column = 0; column < map_.width(); ++column) {
+        if (!marked[at(column, row)]) continue;
+        setValue(raster, at(column, row), average(pixels, column, row, none));
+        ++done;
+      }
+    }
+  }
+
+  void addSmallSources(Raster& raster) const {
+    for (const auto& [pixel, spot] : small_.spots) {
+      const double whole = std::max(map_.solidAngle(pixel), spot.solidAngle);
+      setValue(raster, pixel,
+               valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
+                   shownRgb(meanRadiance(spot.light, whole).color, sampling_));
+    }
+  }
+
   size_t at(int column, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(map_.width()) + static_cast<size_t>(column);
   }
@@ -227,60 +393,6 @@ class Painter {
   const SpectralSampling* const sampling_;
   const int sharing_;  // one pixel in a square of this side gathers
 };
-
-// Traces the ray through a position in the picture. Empty outside the rim of a fisheye, and where the ray
-// hits a small source, because the light of small sources is added later.
-std::optional<PixelSample> Painter::look(double x, double y, uint64_t seed, PixelParts parts) {
-  const auto direction = map_.direction(x, y);
-  if (!direction) return std::nullopt;
-  const PixelSample sample = tracer_.trace(*direction, seed, parts);
-  if (!small_.images.empty() && sources_.isOneStraight(sample.shown, small_.images)) return std::nullopt;
-  return sample;
-}
-
-// look() through the middle of a pixel. If the ray hits a small source, rays beside the middle are tried.
-std::optional<PixelSample> Painter::middle(int column, int row, PixelParts parts) {
-  const size_t pixel = at(column, row);
-  if (!map_.direction(column + .5, row + .5)) return std::nullopt;
-  auto sample = look(column + .5, row + .5, streams_.middle(pixel), parts);
-  for (size_t i = 0; !sample && i < OfPictures::kBeside.size(); ++i)
-    sample = look(column + .5 + OfPictures::kBeside[i][0], row + .5 + OfPictures::kBeside[i][1],
-                  streams_.aside(pixel, i), parts);
-  return sample;
-}
-
-// In each block one pixel gathers. Its position is random, so that no grid is visible.
-bool Painter::gathers(int column, int row) const {
-  const auto chosen = static_cast<int>(mixBits(streams_.middle(at(column / sharing_, row / sharing_))) %
-                                       static_cast<uint64_t>(sharing_ * sharing_));
-  return column % sharing_ == chosen % sharing_ && row % sharing_ == chosen / sharing_;
-}
-
-Pixels Painter::tracePixels() {
-  Pixels pixels(map_);
-  int traced = 0;
-  for (int sweep = 0; sweep < OfPictures::kSweeps; ++sweep)
-    for (int row = sweep; row < map_.height(); row += OfPictures::kSweeps) {
-      report(kTracingShare * traced++ / map_.height());
-      for (int column = 0; column < map_.width(); ++column) {
-        const bool all = gathers(column, row);
-        if (const auto sample = middle(column, row, all ? PixelParts::all : PixelParts::noIndirect))
-          pixels.set(at(column, row), *sample, all);
-      }
-    }
-  return pixels;
-}
-
-// Gathers at pixels that smoothing left without indirect light: on small surfaces, none may gather.
-void Painter::gatherWhereUnknown(Pixels& pixels) {
-  for (int row = 0; row < map_.height(); ++row)
-    for (int column = 0; column < map_.width(); ++column) {
-      const size_t pixel = at(column, row);
-      if (pixels.seen.pixels[pixel].material == kNone || pixels.indirect.known[pixel] > 0) continue;
-      if (const auto sample = middle(column, row, PixelParts::all))
-        pixels.indirect.light[pixel] = Imath::V3f(sample->indirect);
-    }
-}
 
 // Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
 // smoothing may remove.
@@ -308,131 +420,6 @@ std::vector<bool> noisyShadows(const Pixels& pixels) {
       }
     }
   return marked;
-}
-
-// Traces the direct light of noisy soft shadows several times. smoothLight() could not distinguish such
-// strong noise from the edge of a shadow, and the edge would become ragged.
-void Painter::repeatDirect(Pixels& pixels) {
-  const std::vector<bool> marked = noisyShadows(pixels);
-  for (int row = 0; row < map_.height(); ++row)
-    for (int column = 0; column < map_.width(); ++column) {
-      const size_t pixel = at(column, row);
-      if (!marked[pixel]) continue;
-      V3d sum(pixels.middles[pixel].direct);
-      int count = 1;
-      for (int repeat = 0; repeat < OfPictures::kRepeats; ++repeat) {
-        const auto sample =
-            look(column + .5, row + .5, streams_.direct(pixel, repeat), PixelParts::restAlone);
-        if (!sample || !mayShare(pixels.seen.pixels[pixel], sample->seen, kOfDirect)) continue;
-        sum += sample->direct;
-        ++count;
-      }
-      pixels.direct.light[pixel] = pixels.middles[pixel].direct = Imath::V3f(sum / count);
-    }
-}
-
-// Marks the pixels that differ visibly from a neighbor.
-std::vector<bool> Painter::uneven(const Raster& raster, const ToneCurve& curve) const {
-  std::vector<bool> marked(map_.count(), false);
-  const auto differ = [&](size_t a, size_t b) {
-    const V3d of = curve.shown(valueAt(raster, a)), other = curve.shown(valueAt(raster, b));
-    for (int c = 0; c < 3; ++c)
-      if (std::abs(sRgb(of[c]) - sRgb(other[c])) > OfPictures::kVisible) return true;
-    return false;
-  };
-  for (int row = 0; row < map_.height(); ++row)
-    for (int column = 0; column < map_.width(); ++column) {
-      const size_t here = at(column, row);
-      const auto compare = [&](size_t there) {
-        if (differ(here, there)) marked[here] = marked[there] = true;
-      };
-      if (row + 1 < map_.height()) compare(at(column, row + 1));
-      if (column + 1 < map_.width())
-        compare(here + 1);
-      else if (map_.wraps())
-        compare(at(0, row));
-    }
-  return marked;
-}
-
-// The nearest pixel to this column and row, within one pixel, that shows the surface of the sample.
-std::optional<size_t> Painter::alike(const Pixels& pixels, const PixelSample& sample, int column,
-                                     int row) const {
-  constexpr int kOrder[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
-  for (const auto& step : kOrder) {
-    int x = column + step[0];
-    const int y = row + step[1];
-    if (map_.wraps()) x = (x + map_.width()) % map_.width();
-    if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) continue;
-    const size_t pixel = at(x, y);
-    if (mayShare(sample.seen, pixels.seen.pixels[pixel], kOfIndirect) &&
-        sample.sharesGloss == pixels.middles[pixel].sharesGloss)
-      return pixel;
-  }
-  return std::nullopt;
-}
-
-// Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels. Empty
-// outside the rim, and where the ray hits a small source.
-std::optional<V3d> Painter::around(const Pixels& pixels, int column, int row, size_t place) {
-  const double x = column + .5 + OfPictures::kAround[place][0], y = row + .5 + OfPictures::kAround[place][1];
-  const uint64_t seed = streams_.around(at(column, row), place);
-  auto sample = look(x, y, seed, PixelParts::restAlone);
-  if (sample && sample->seen.material != kNone) {
-    if (const auto pixel = alike(pixels, *sample, column, row)) return pixels.complete(*sample, *pixel);
-    sample = look(x, y, seed, PixelParts::all);
-  }
-  return sample ? std::optional(sample->value()) : std::nullopt;
-}
-
-V3d Painter::average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
-  const size_t pixel = at(column, row);
-  if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
-  for (size_t place = 0; place < OfPictures::kAround.size(); ++place) {
-    if (place == OfPictures::kCorners && !rays.differ()) break;
-    if (const auto value = around(pixels, column, row, place)) rays.add(*value);
-  }
-  return rays.mean().value_or(pixels.value(pixel));
-}
-
-void Painter::refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster) {
-  const std::vector<bool> marked = uneven(raster, curve);
-  const double all = std::max<double>(1, static_cast<double>(std::ranges::count(marked, true)));
-  const RaysOfPixel none(curve, forScreen);
-  int done = 0;
-  for (int row = 0; row < map_.height(); ++row) {
-    report(kTracingShare + (1 - kTracingShare) * done / (all + 1));
-    for (int column = 0; column < map_.width(); ++column) {
-      if (!marked[at(column, row)]) continue;
-      setValue(raster, at(column, row), average(pixels, column, row, none));
-      ++done;
-    }
-  }
-}
-
-void Painter::addSmallSources(Raster& raster) const {
-  for (const auto& [pixel, spot] : small_.spots) {
-    const double whole = std::max(map_.solidAngle(pixel), spot.solidAngle);
-    setValue(raster, pixel,
-             valueAt(raster, pixel) * (1 - spot.solidAngle / whole) +
-                 shownRgb(meanRadiance(spot.light, whole).color, sampling_));
-  }
-}
-
-Raster Painter::draw(bool forScreen, double white) {
-  Pixels pixels = tracePixels();
-  smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
-  smoothLight(pixels.seen, kOfGloss, pixels.gloss);
-  gatherWhereUnknown(pixels);
-  repeatDirect(pixels);
-  smoothDirect(pixels);
-  Raster raster{map_.width(), map_.height(), std::vector<float>(3 * map_.count())};
-  for (size_t pixel = 0; pixel < map_.count(); ++pixel) setValue(raster, pixel, pixels.value(pixel));
-  const ToneCurve curve(raster, map_, white);
-  refine(pixels, curve, forScreen, raster);
-  addSmallSources(raster);
-  if (forScreen) toScreen(raster, curve);
-  return raster;
 }
 
 }  // namespace
