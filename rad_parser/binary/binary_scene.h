@@ -42,9 +42,8 @@ void passOverCells(BinaryReader& input, int width, Object object) {
 }
 
 // Reads binary primitives into the builder, as primitives of file `file`; their places are their numbers.
-// Modifiers refer to earlier primitives of the same data, which must be the first in the builder's
-// description. An unknown type name causes a warning, and an error if a primitive has this type. Returns the
-// number of primitives.
+// Modifiers refer to earlier primitives of the data, the first in the builder's description. An unknown type
+// name causes a warning; a primitive of this type, an error. Returns the number of primitives.
 //
 // An alias with the same modifier as another primitive refers to it by number, any other alias by name. In
 // the former case that primitive's name, perhaps not that of the original text, becomes the alias's argument.

@@ -21,8 +21,7 @@ struct IrradianceField {
   // sees; where it is smaller than the scene, it takes the place of the scene's size in RADIANCE's -ar.
   // Chosen by the error in thin gaps and the number of gathers, in rooms on a ground of 0 to 5 km: with 4,
   // the light between louvres is 3% too dark; with 2.5, furnished rooms need 3% more gathers.
-  // Also: the side of the widest cells is -aa times kRoom times the harmonic mean distance of their
-  // surroundings. Insensitive.
+  // Also: the widest cells' side is -aa times kRoom times their harmonic mean distance. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
   // Upper bound on the finest spacing, relative to the height of the gap that contains a place (the distance
   // to the first surface along its normal). Measured: with 1, 2.6 instead of .7% of the places between
@@ -43,8 +42,7 @@ struct IrradianceField {
 // Interpolation between the sites around a place (site_interpolation.cpp). Its error is predicted from the
 // change of the gradient between two sites, and from their difference, which shows edges of shadows.
 struct SiteInterpolation {
-  // Differences between sites below this number of standard errors are treated as noise. Chosen by
-  // experiment. Insensitive.
+  // Differences of sites below this number of standard errors are noise. Chosen by experiment. Insensitive.
   static constexpr double kChance = .7;
   // Divisor of the difference of the light of two sites, and of the part of it that the gradients do not
   // predict. Chosen by experiment. Insensitive.

@@ -1,6 +1,5 @@
 #pragma once
-// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling
-// (light_paths/vertex_light.h):
+// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling (vertex_light.h):
 // - glances: evenly spread rays to the nearest hit, without further bounces; many for each traced direction,
 // - joins: connections, which are shadow rays from the point to light vertices, sent more often to vertices
 //   that would contribute more.

@@ -154,8 +154,7 @@ class LightVertices {
 };
 
 // Approximate reflectance of a place for light from one direction towards the eye, relative to a white
-// diffuse surface; used to select joins. toSource: direction to the source (unit). view: direction of the ray
-// from the eye (unit).
+// diffuse surface, to select joins. toSource: direction to the source; view: of the ray from the eye (unit).
 double joinedReflectance(const Opaque& material, const V3d& normal, const V3d& view, const V3d& toSource);
 
 }  // namespace rsphere

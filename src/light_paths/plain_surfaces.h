@@ -141,8 +141,7 @@ inline bool hasRoughHighlight(const Opaque& material) {
 enum class Shown : uint8_t { none, highlight, all };
 
 // The radiance that a place reflects, diffusely and in its rough highlight, relative to the radiance of a
-// source of this solid angle (sr). toSource: direction to the source (unit). view: direction of the ray that
-// hits the place (unit).
+// source of this solid angle (sr). toSource: direction to the source; view: of the ray to the place (unit).
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
                           Shown shown = Shown::all);
 

@@ -19,8 +19,7 @@ class SourceEmission {
   SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths);
 
   // An emission with most paths from preferred sources, each of which then has less power. This at most
-  // doubles the noise from other sources. preferred: numbers of LightIds; for a virtual source, its real
-  // source is preferred.
+  // doubles the noise from others. preferred: numbers of LightIds; the real sources of virtual ones.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
 
   // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources. For

@@ -85,9 +85,8 @@ inline float squareAbove(float x) {
 }  // namespace
 
 // Repeatedly halves the cluster with the largest product of power and extent, until the number of clusters is
-// reached. The root of the power is used if a spot of sunlight may have most of the power. It would
-// otherwise get most of the clusters, and the others would be so large that a place beside a wall would
-// seldom draw the vertices next to it.
+// reached. The root of the power is used if a spot of sunlight may have most of the power. It would otherwise
+// get most of the clusters, and a place beside a wall would seldom draw the vertices next to it.
 VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices, bool uneven) {
   Order order{std::vector<uint32_t>(vertices.size()), {}};
   std::iota(order.vertices.begin(), order.vertices.end(), 0);

@@ -82,8 +82,7 @@ struct Openings {
 // Openings as light sources of paths from both ends (portals.cpp).
 struct Portals {
   // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the
-  // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
-  // classroom, would be lost.
+  // eye find its light. Rays to a false opening, such as a hole in the plane of desk tops, would be lost.
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
 };
 

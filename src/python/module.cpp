@@ -71,8 +71,7 @@ bool interrupted() {
 }
 
 // The array of a quantity, whose memory it takes over. It has a row for each record, divided by each of
-// `parts` that is not 0 (contributors, faces); rows of a single number become that number. None if the
-// quantity was not requested.
+// `parts` that is not 0 (contributors, faces); rows of one number become it. None if it was not requested.
 py::object arrayOf(Quantity&& quantity, size_t records, std::initializer_list<size_t> parts = {}) {
   if (quantity.columns == 0) return py::none();
   std::vector<size_t> shape{records};

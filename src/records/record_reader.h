@@ -13,8 +13,7 @@
 namespace rsphere {
 
 // The meaning of line ends in text records. They are blanks, as in rtrace, or they end records: each line
-// that is not blank is then one record, and a line with too many or too few columns is reported instead of
-// shifting all later numbers.
+// that is not blank is then one record, and one with too many or too few columns is reported.
 enum class LineEnds : uint8_t { areBlanks, endRecords };
 
 // Reads records of numbers from a file descriptor: text (numbers between white space, which may be quoted) or

@@ -10,8 +10,7 @@
 namespace rsphere {
 
 // The end of a message about a name that is the modifier of no surface: if it is the name of a surface, that
-// surface's modifier; otherwise the most similar modifier of a surface, or nothing. The time is proportional
-// to the number of surfaces.
+// surface's modifier; otherwise the most similar modifier, or nothing. Examines all surfaces.
 std::string hintOfModifier(const Scene& scene, std::string_view name);
 
 // Warns, in one line, if some of the names are the modifier of no surface: 'no surface has the modifier

@@ -31,9 +31,8 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 // A modifier that some surface uses, and the next modifier in its chain (kNone: void).
 struct Modifier {
   Content content;
-  // Arguments of patterns, textures, mixtures and materials with `functions`; null for others. The files that
-  // they name are read, and functions compiled, when the modifier is first evaluated:
-  // shade/surface_functions.h.
+  // Arguments of patterns, textures, mixtures and materials with `functions`; null for others. Their files
+  // are read, and functions compiled, when the modifier is first evaluated: shade/surface_functions.h.
   std::shared_ptr<const EvaluatedArguments> arguments;
   ModifierId next;
   PrimitiveId primitive;   // in Scene::description; for an alias, that of its target

@@ -149,8 +149,7 @@ bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3
                  const V3d& direction, double distance, double cosine) {
   if (!polygon.hasArea) return false;
   // Two polygons that share an edge compute hits of one ray that differ by this distance, because each rounds
-  // the distance along the ray separately. Points this close to the edge are inside both, so that no light
-  // leaks between them.
+  // the distance along the ray separately. Points this near to the edge are inside both: no light leaks.
   const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;
   const double tolerance = 2 * kRounding * size / std::abs(cosine);
   return inside(polygon, vertices, origin + distance * direction, tolerance);

@@ -56,8 +56,7 @@ class SurfaceFunctions {
   // Keeps a reference to the scene. sampling: the bands of a spectral run. Null in a run of three channels,
   // whose spectra are computed within `limits`. warn: called once for each modifier with a value that cannot
   // be computed (division by zero and the like), from any thread, but never by two at once. definitions:
-  // visible to all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
-  // missing or invalid.
+  // visible to all function files, instead of rayinit.cal. Throws rad::Error if one is missing or invalid.
   SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn = {},
                    std::span<const SharedDefinitions> definitions = {}, const WavelengthLimits& limits = {});
 

@@ -5,8 +5,7 @@
 //
 // Each model of scattering is a class with the members of the concept ScattersLight. They are values: they
 // trace nothing, and the caller passes their random numbers. Their terms must be estimated in the order
-// above, reflection before transmission, because a lobe that is too weak to be sampled may add its share to
-// the indirect light.
+// above, reflection before transmission, because a lobe too weak to be sampled may add to indirect light.
 #include <array>
 #include <concepts>
 #include <optional>

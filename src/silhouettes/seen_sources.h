@@ -15,8 +15,7 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. All
-  // sources are chosen except illums, because a viewer does not see illums as sources. Keeps a reference to
-  // the prepared scene.
+  // sources are chosen except illums, which a viewer does not see as sources. Keeps a reference to the scene.
   explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.

@@ -16,8 +16,7 @@ struct SeenSources {
   RSPHERE_DERIVED(SeenSources, double, kSmallShare, .1);
   // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
   // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
-  // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
-  // proportional to L^(4/5).
+  // proportional to L n^-3/4. The sum of L^2 n^-3/2, for a given sum of n, is smallest for n ~ L^(4/5).
   static constexpr double kByLight = 4. / 5;
   // Number of directions that measure, without rays, how much of a region its source fills: derived. An edge
   // divides about n^1/2 of n even cells. Their errors, of .3 each, add up to .3 n^-3/4 of the region: .2%.

@@ -163,8 +163,7 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
 
 void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
   // Replaced triangles are recognized by their first corner: in new triangles it is a site that was added
-  // later, which no base triangle has. For replaced triangles, 0 is added instead of branching, because the
-  // branch would be mispredicted.
+  // later, which no base triangle has. For these, 0 is added, because a branch would be mispredicted.
   const auto& triangles = triangulation.delaunay.triangles;
   const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
   which.resize(triangles.size());
