@@ -11,8 +11,7 @@
 
 namespace rad {
 
-// The format in a line of an information header ("FORMAT=..."), without surrounding blanks. Empty if the line
-// contains no format.
+// The format in a line of an information header ("FORMAT=..."), without blanks. Empty if there is none.
 std::optional<std::string_view> headerFormat(std::string_view line);
 
 // Reads the portable binary data of octrees and meshes from a file descriptor, in blocks, so that memory does

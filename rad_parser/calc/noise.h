@@ -1,5 +1,4 @@
 #pragma once
-#include <cmath>
 
 // Numeric functions of the language that the C library lacks. They depend only on their arguments.
 namespace rad::calc {

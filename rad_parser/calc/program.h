@@ -17,8 +17,7 @@ struct Point {
 // Why an undefined value is replaced by 0, as in RADIANCE: division by 0, or a power or function not finite.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
-// The name of the first fault that is set. "not finite" if there is none, because in RADIANCE the overflow of
-// a sum or product is not a fault.
+// The name of the first fault; "not finite" if there is none: RADIANCE has none for sums and products.
 const char* faultName(uint32_t faults);
 
 // A function supplied by the renderer. It is called with all arguments of the call, at least `arity`. It may

@@ -26,8 +26,7 @@ struct Beam {
 
 double cross(const V2d& u, const V2d& v) { return u.x * v.y - u.y * v.x; }
 
-// The axes of polarization of light that hits a side with this normal: parallel and perpendicular to the
-// plane of incidence.
+// The axes of polarization at a side with this normal: parallel and perpendicular to the plane of incidence.
 struct Axes {
   V3d parallel, perpendicular;
 };

@@ -128,8 +128,7 @@ class TreeReader {
     data_.take(',');
   }
 
-  // Reads the values of an even grid with 1, 2, 4, ... cells along each dimension. The index of the last
-  // dimension varies fastest.
+  // Reads the values of a grid of 1, 2, 4, ... cells along each dimension; the last varies fastest.
   void readGrid(size_t node, int depth) {
     values_.clear();
     for (char c = data_.next(); c != '}' && c != '\0'; c = data_.next()) values_.push_back(data_.value());

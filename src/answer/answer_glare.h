@@ -16,8 +16,6 @@ class GlareWorkers {
   // checkStop is called repeatedly; it may throw to abandon the eye. Keeps a reference to the transport.
   GlareWorkers(const Transport& transport, const AnswerOptions& options,
                const std::function<void()>& checkStop = {});
-  GlareWorkers(const GlareWorkers&) = delete;
-  GlareWorkers& operator=(const GlareWorkers&) = delete;
 
   // record: eye and gaze. Throws rad::Error with the number of the record if the gaze is 0 or vertical.
   // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.

@@ -18,8 +18,6 @@ class PointWorkers {
   // throw to abandon the point. Keeps a reference to the transport. Throws the errors of SphereEstimator.
   PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
                const std::function<void()>& checkStop = {});
-  PointWorkers(const PointWorkers&) = delete;
-  PointWorkers& operator=(const PointWorkers&) = delete;
 
   // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.
   PointAnswer answer(const V3d& point, unsigned worker) {

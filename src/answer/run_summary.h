@@ -57,8 +57,7 @@ class RunSummary {
   Some estimated_, missed_;  // -Sa: relative standard errors of brightness; and those above the accuracy
 };
 
-// Adds the sensors that `answer` answers to the summary. Returns `answer` itself for rays other than those of
-// -I. Keeps references.
+// Adds the sensors of `answer` to the summary. Returns `answer` itself for rays without -I. Keeps references.
 AnswerRecord withSensors(AnswerRecord answer, const AnswerOptions& options, const PreparedScene& prepared,
                          RunSummary& summary);
 

@@ -254,8 +254,7 @@ class Call {
     std::string bytes;
     for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
       for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
-        // Records before a faulty one are still answered, so that the reported error is always the first,
-        // regardless of threads.
+        // Records before a faulty one are still answered, so that the reported error is always the first.
         if (i > faultAt_) return;
         try {
           if (answerer_.stop) throw Stopped();

@@ -92,8 +92,7 @@ struct OptionExtras {
   std::string_view reason{};  // why it is refused
   bool glued = false;         // its value follows without a blank: -fio -ospec
   bool alsoGlued = false;     // its value may follow without a blank: -te mod, -temod
-  // Whether a switch is in effect, as -help and the manual say, if that is not its value: like rtrace,
-  // -defaults prints the value.
+  // Whether a switch is in effect, as -help says, if not its value, which -defaults prints like rtrace.
   bool (*inEffect)(const Options&) = nullptr;
   // The line of -defaults without its remark, if it does not follow from the type; "" for no line.
   std::string (*line)(const Options&) = nullptr;
@@ -120,8 +119,7 @@ inline bool worksIn(const OptionEntry& entry, bool sphereMode) {
 // The number of words that follow the option.
 int arity(const OptionEntry& entry);
 
-// The values before the first option: in ray mode rtrace's defaults; in sphere mode defaults for means of
-// thousands of directions.
+// The values before the first option: in ray mode rtrace's; in sphere mode those for thousands of directions.
 Options modeDefaults(bool sphereMode);
 
 // Sets the defaults of rays whose standard errors are computed: nothing is left out but bounces beyond -ab.
@@ -183,8 +181,7 @@ std::string companionDefaults(const Companion& companion, Options& options);
 // begin with '#', it can be read by @file. takes: Companion::takes.
 std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&) = nullptr);
 
-// The text of "-help all": one line for each option. And that of -help: a line for each of the twelve options
-// of the mode that most people need.
+// The text of "-help all", a line for each option, and of -help, for the twelve that most people need.
 std::string helpText(const Options& options);
 std::string usualHelp(const Options& options);
 

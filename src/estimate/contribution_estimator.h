@@ -5,7 +5,6 @@
 // The ray is estimated by the independent sets of RayEstimator, whose value here is the sum of all
 // contributions. The standard error of a contribution follows from the spread of the sets in each half. With
 // four sets in a half, the error of a single bin is itself uncertain by about 30%.
-#include <array>
 #include <functional>
 #include <vector>
 

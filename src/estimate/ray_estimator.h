@@ -15,7 +15,6 @@
 // other half get, so that the number of rays does not depend on the values that are averaged: a half that
 // misses something bright seems less noisy than it is. If the stated error is still too large, all sets get
 // more rays; this causes the remaining bias (two_halves.h has measured it for points).
-#include <array>
 #include <functional>
 #include <vector>
 

@@ -12,8 +12,6 @@ template <class Key, class Value>
 class InsertOnce {
  public:
   explicit InsertOnce(unsigned logBuckets) : mask_((size_t{1} << logBuckets) - 1), buckets_(mask_ + 1) {}
-  InsertOnce(const InsertOnce&) = delete;
-  InsertOnce& operator=(const InsertOnce&) = delete;
   ~InsertOnce() {
     for (auto& bucket : buckets_)
       for (Node* node = bucket.load(std::memory_order_relaxed); node;) {

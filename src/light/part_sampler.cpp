@@ -170,8 +170,7 @@ double jittered(double from, double to, double jitter, Random& random) {
   return middle + jitter * (random.uniform() - .5) * (to - from);
 }
 
-// One coordinate of a uniformly distributed point in the unit ball. Its density, 3/4 (1 - z^2), is that of
-// the median of three uniform numbers.
+// A coordinate of a uniform point in the unit ball. Its density, 3/4 (1 - z^2), is that of a median of three.
 double depthInBall(Random& random) {
   const double a = random.uniform(), b = random.uniform(), c = random.uniform();
   return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1;

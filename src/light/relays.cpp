@@ -339,8 +339,7 @@ class Images {
   Side sideLit(LightId index) const {
     const LightSource& source = sources_[index];
     const Relay& last = relays_[relayOf_[index]];
-    // A mirror reflects on its front, even if its plane cuts the source; the light of a prism leaves on the
-    // side opposite to the image.
+    // A mirror reflects on its front, even if its plane cuts the source; a prism's light goes away from the image.
     const double side =
         isPrism(last) ? source.center.dot(last.normal) - (source.isDistant() ? 0 : last.offset) : -1;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
@@ -359,8 +358,7 @@ class Images {
     // As in RADIANCE, the reach is compared with the distance to the relay's center.
     if (source.reach > 0 && (relay.ball.center - source.center).length() > source.reach) return false;
     if (source.spot) {
-      // The spot's cone starts at the source's center. For rays from the rest of the source, the relay's ball
-      // is enlarged by the source's radius.
+      // The spot's cone starts at the source's center; for the rest of it, the relay's ball is enlarged.
       const Beam cone{source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi)};
       const Ball enlarged{relay.ball.center, relay.ball.radius + source.radius};
       if (cone.cosine > 0 && !cone.meets(source.center, enlarged)) return false;
@@ -466,8 +464,7 @@ class Images {
     image.shape = rsphere::imageOf(source.shape, projection);
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
-      // A shear does not map a cone to a cone, so the image has no cone. The spotlight's cone is tested when
-      // the ray reaches the real source.
+      // A shear maps no cone to a cone. The spotlight's is tested when the ray reaches the real source.
       if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
     }
     image.center =

@@ -14,8 +14,7 @@ double brightnessOf(const Scene& scene, const ById<LightId, LightSource>& all, L
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
-// The height of a source's center above the surface. For a source that is partly below the surface: half the
-// height of its highest point.
+// The height of a source's center above the surface; half that of its highest point if it is partly below.
 double before(double height, double radius) {
   return height >= radius ? height : std::max(0., height + radius) / 2;
 }

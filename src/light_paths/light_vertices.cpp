@@ -202,8 +202,7 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   return course;
 }
 
-// Whether a light path enters the room through a portal. It ends there, because paths that start on the
-// portal carry this light.
+// Whether a light path enters the room through a portal, and ends: paths from the portal carry this light.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
   const Portals& portals = all_.surfaces_.portals();
   return !portals.empty() &&

@@ -73,8 +73,7 @@ class VisibleVertices {
   void sort(const PreparedScene& prepared);
 
   const std::vector<VisibleVertex>& all() const { return all_; }
-  // Calls use(begin, end) for ascending index ranges of all(). They contain all vertices except some that are
-  // hidden from the point.
+  // Calls use(begin, end) for ascending index ranges of all(), except some vertices hidden from the point.
   void from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
   // Memory for the result of LightVertices::shadowRaysTo() for a vertex of all(); 0: not computed yet.
   std::atomic<double>& shadowRaysTo(const VisibleVertex& v) const {

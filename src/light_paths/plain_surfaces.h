@@ -118,8 +118,7 @@ class PlainSurfaces {
   bool hasPanes_ = false;
 };
 
-// The probability of choosing this source by the weights of PlainSurfaces::weigh(); 0 if it is certainly
-// hidden. weights: room for these.
+// The probability of choosing this source by PlainSurfaces::weigh(); 0 if hidden. weights: room for these.
 double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
                 std::vector<double>& weights);
 

@@ -40,8 +40,7 @@ class SourceEmission {
   // The mean power of a path, W (brightness): that of paths from even sources, unless some are preferred.
   double pathPower() const { return pathPower_; }
 
-  // Factor on the light at this distance from its source (world units), because the light of a spotlight
-  // diverges from a focus behind it.
+  // Factor on the light at this distance from its source (world units): a spotlight's focus is behind it.
   double divergence(LightId source, double distance) const;
   // Whether the density of shadow rays towards the source is known.
   bool isAimedAt(LightId source) const;

@@ -54,8 +54,7 @@ class VertexClusters {
 
  private:
   static constexpr size_t kCount = tuning::VertexLight::kClustersRoom;
-  // Number of clusters in a group. A group is first selected by its total weight, which avoids going through
-  // the clusters of all groups.
+  // Number of clusters in a group. A group is first selected, to avoid going through all clusters.
   static constexpr size_t kGroup = 8;
   static_assert(kCount % kGroup == 0);
   // One element for each cluster. Separate arrays allow weighing several clusters at a time (SIMD).

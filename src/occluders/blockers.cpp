@@ -188,8 +188,7 @@ bool Blockers::isClear(const V3d& from, const V3d& to) const {
 // The result also holds for all places within kBeside times margin() of the boxes. Places behind a blocker
 // that is perpendicular to an axis are an exception, since regions end closer to it.
 //
-// If a segment misses the polygon, tests whether anything blocks the segment before looking up the area,
-// which may take long.
+// If a segment misses the polygon, tests whether anything blocks it before looking up the area (slow).
 //
 // If some segments pass through holes, the boxes are narrowed to the ends of such segments. Slabs whose holes
 // are not above one another may then hide a box together.

@@ -37,8 +37,7 @@ class HiddenBoxes {
     return root_ ? find(beside(point, front)) : all_;
   }
 
-  // The result for the largest region around the point for which enough(result) is true; if it is never true,
-  // for the smallest region.
+  // The result for the largest region around the point for which enough(result), or for the smallest.
   std::span<const uint32_t> widestWhere(const V3d& point,
                                         FunctionRef<bool(std::span<const uint32_t>)> enough) const;
 

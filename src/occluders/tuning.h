@@ -30,8 +30,7 @@ struct HiddenBoxes {
   static constexpr double kWorthDividing = .25;
   // Cap on the tests to find the boxes hidden from a region. To keep below it, groups are tested first.
   static constexpr size_t kMostTests = 4096;
-  // Up to this number of boxes, blockers are searched for from both ends of a segment; for more boxes this
-  // takes more time than it saves.
+  // Up to this number of boxes, blockers are searched for from both ends of a segment; more take too long.
   static constexpr size_t kFewFromBothEnds = 4096;
 };
 

@@ -394,8 +394,7 @@ class Painter {
   const int sharing_;  // one pixel in a square of this side gathers
 };
 
-// Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
-// smoothing may remove.
+// Marks pixels in soft shadows whose direct light differs from nearby by more than smoothing may remove.
 std::vector<bool> noisyShadows(const Pixels& pixels) {
   const int width = pixels.seen.width, height = pixels.seen.height;
   std::vector<bool> marked(pixels.middles.size(), false);

@@ -16,8 +16,7 @@
 namespace rsphere {
 
 struct PointQuantity {
-  // place: coordinates. colors, errors: by `each`. vector, vectorErrors: the light vector and its errors.
-  // count: of directions.
+  // place: coordinates. colors, errors: by `each`. vector, vectorErrors: of light. count: of directions.
   enum class Form : uint8_t { place, colors, errors, vector, vectorErrors, count };
   // Takes a color, or the standard error of a color and that of its brightness.
   using Add = FunctionRef<void(const Color& color, double ofBrightness)>;

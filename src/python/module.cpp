@@ -40,9 +40,16 @@ std::string forPython(std::string text) {
   return text;
 }
 
+// Whether a signal has arrived that raises an exception in Python, such as KeyboardInterrupt.
+bool interrupted() {
+  const py::gil_scoped_acquire lock;
+  return PyErr_CheckSignals() != 0;
+}
+
 // Calls `work` without the interpreter lock. Warnings become Python warnings. Ctrl-C ends the work.
 template <typename SomeOptions, typename Work>
 auto withoutLock(SomeOptions& options, const Work& work) {
+  if constexpr (requires { options.stop; }) options.stop = interrupted;
   std::vector<std::string> warnings;
   options.warn = [&](std::string_view text) { warnings.push_back(forPython(std::string(text))); };
   const auto issue = [&] {
@@ -62,12 +69,6 @@ auto withoutLock(SomeOptions& options, const Work& work) {
     issue();
     throw;
   }
-}
-
-// Whether a signal has arrived that raises an exception in Python, such as KeyboardInterrupt.
-bool interrupted() {
-  const py::gil_scoped_acquire lock;
-  return PyErr_CheckSignals() != 0;
 }
 
 // The array of a quantity, whose memory it takes over. It has a row for each record, divided by each of
@@ -143,7 +144,6 @@ py::object trace(const py::object& self, const py::object& given, const py::kwar
   const Numbers array = numbersOf(required(given, "trace() needs rays: an array of shape (n, 6)"), "rays");
   const std::span<const Ray> rays = recordsOf<Ray>(array, "rays");
   Options options = optionsOf(keywords);
-  options.stop = interrupted;
   RayAnswers a = withoutLock(options, [&] { return scene.trace(rays, options); });
   py::dict arrays;
   arrays["value"] = arrayOf(std::move(a.value), a.size);
@@ -207,7 +207,6 @@ py::object sphere(const py::object& self, const py::object& given, const py::kwa
       numbersOf(required(given, "sphere() needs points: an array of shape (n, 3)"), "points");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
-  options.stop = interrupted;
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
@@ -229,7 +228,6 @@ py::object importance(const py::object& self, const py::object& given, const py:
   required(goals, "importance() needs goals: a list of modifiers, or sensors as an array of shape (n, 6)");
   const std::span<const Point> points = recordsOf<Point>(array, "points");
   Options options = optionsOf(keywords);
-  options.stop = interrupted;
   if (areNames(goals, "goals")) {
     const auto names = goals.cast<std::vector<std::string>>();
     return arraysOf(withoutLock(options, [&] { return scene.importance(points, names, options); }));
@@ -286,7 +284,6 @@ py::object glare(const py::object& self, const py::object& eyes, const py::objec
       "of three numbers for all");
   const std::vector<Ray> rays = eyesOf(numbersOf(eyes, "eyes"), numbersOf(gazes, "gazes"));
   Options options = optionsOf(keywords);
-  options.stop = interrupted;
   GlareAnswers a = withoutLock(options, [&] { return scene.glare(rays, options); });
   py::dict arrays;
   arrays["ugr"] = arrayOf(std::move(a.unifiedGlareRating), a.size);
@@ -321,7 +318,6 @@ py::object contributions(const py::object& self, const py::object& given, const 
   options.bins = binsOf(bins);
   options.samples = wholeNumberOf(samples, "samples");
   options.coefficients = truthOf(coefficients, "coefficients");
-  options.stop = interrupted;
   Contributions a = withoutLock(options, [&] { return scene.contributions(rays, modifiers, options); });
   py::dict arrays;
   arrays["modifiers"] = py::cast(a.modifiers);

@@ -27,8 +27,6 @@ class PreparedScene {
   // Prepares the scene of `other` with other options, without warnings. They share the tracer, which takes
   // most of the memory and time in a large scene. REQUIRES that both have the same -bv.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
-  PreparedScene(const PreparedScene&) = delete;
-  PreparedScene& operator=(const PreparedScene&) = delete;
 
   const Scene& scene() const { return scene_; }
   const Tracer& tracer() const { return *tracer_; }

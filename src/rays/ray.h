@@ -96,8 +96,7 @@ struct PathContext {
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  // The hit, or the end of a ray with a limit (RayQuery::farthest). If the ray hits nothing, or a distant
-  // source: its origin.
+  // The hit, or the end of a ray with a limit (RayQuery::farthest). For no hit, or a distant one: its origin.
   V3d point{0, 0, 0};
   double u = 0, v = 0;
   PlacementPath path;   // the instances that contain the surface

@@ -21,8 +21,7 @@
 namespace rsphere {
 namespace {
 
-// Number of bytes that are collected in all outputs together before they are written: a run may have
-// thousands of pictures.
+// Bytes collected in all outputs together before they are written: there may be thousands of pictures.
 constexpr size_t kMostPending = size_t{16} << 20;
 
 [[noreturn]] void systemError(const std::string& name, std::string_view what) {

@@ -64,8 +64,7 @@ class OutputColors {
   // Writes without conversion to lumens.
   void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.color, 1); }
 
-  // Writes a standard error: of each channel or band or, with -pY, of the brightness in lumens. REQUIRES:
-  // haveStandardErrors().
+  // Writes a standard error: of each channel or band, or of lumens (-pY). REQUIRES: haveStandardErrors().
   void writeError(RecordText& text, const Radiance& error, double brightness) const;
 
   // The header lines that describe the colors, with line ends; and the FORMAT of their pixels (-fc).

@@ -87,8 +87,7 @@ double RecordReader::shareRead() const {
   return static_cast<double>(at - static_cast<off_t>(end_ - begin_)) / static_cast<double>(status.st_size);
 }
 
-// Makes room in the block and reads the input that has arrived; waits for the first byte. Returns false at
-// the end of input or if interrupted.
+// Makes room in the block and reads what has arrived, at least a byte. False at the end or if interrupted.
 bool RecordReader::refill() {
   if (atEnd_ || interrupted_) return false;
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
@@ -204,8 +203,7 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
   return count;
 }
 
-// Reads the numbers of a line into partial_. Throws rad::Error if the line is not a record. whole: whether
-// the end of the line has arrived.
+// Reads the numbers of a line into partial_. Throws rad::Error if it is no record. whole: with its end.
 void RecordReader::readLine(std::string_view line, bool whole) {
   int count = 0;
   for (size_t at = 0;;) {

@@ -30,8 +30,7 @@ class ModifierBuilder {
   // for: wrong arguments, undefined names, modifiers that name each other too deeply, and unsupported types.
   ModifierId modifier(PrimitiveId described);
 
-  // Surface::clip of surfaces with the modifier at this index of the description. REQUIRES that all modifiers
-  // of the scene have been converted.
+  // Surface::clip of surfaces with this modifier of the description. REQUIRES: all modifiers are converted.
   uint64_t clipOf(PrimitiveId described) const;
 
  private:

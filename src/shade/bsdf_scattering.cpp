@@ -119,8 +119,7 @@ Color BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& r
   }
   const double size = part->cell(view_, other).projectedSolidAngle;
   const int draws = size > 0 ? views_ : 1;
-  // Cells smaller than this fraction of the view's cell belong to a peak, whose light must not be spread over
-  // a neighbouring cell.
+  // Cells below this fraction of the view's cell belong to a peak, not to be spread over a neighbouring cell.
   constexpr double kMuchFiner = .12;
   Color sum(0, 0, 0);
   int counted = 0;

@@ -68,8 +68,7 @@ V3d orientation(ModifierId material, MaterialHit& hit, const FunctionPoint& poin
   return hit.functions().orientation(material, point, hit.scratch());
 }
 
-// The interaction of one component of WGMDfunc. named: empty if the component has the material's modifiers,
-// whose interaction is `inherited`.
+// The interaction of a component of WGMDfunc. named: empty for the material's modifiers (`inherited`).
 Interaction componentAt(const MaterialHit& hit, const std::optional<ModifierId>& named,
                         const Interaction& inherited) {
   return named ? hit.interactionAfter(*named) : inherited;

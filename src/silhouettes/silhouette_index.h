@@ -16,8 +16,7 @@ class SilhouetteIndex {
   // number: the name of the silhouette in the result of near().
   void add(uint32_t number, const Silhouette& silhouette);
 
-  // The numbers of all silhouettes that contain the direction (unit), and of some that do not, in the order
-  // in which they were added.
+  // The numbers of all silhouettes that contain the direction (unit), and of others, in order of addition.
   std::span<const uint32_t> near(const V3d& direction) const;
 
  private:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -90,8 +89,7 @@ struct Delaunay {
   };
 
   bool holdsSlowly(const Triangle& t, const V3d& p);
-  // Finds a triangle whose circumcircle contains p. Returns kNone if there is none, and sets `equal` to the
-  // site with which p is merged.
+  // Finds a triangle whose circumcircle contains p. If there is none (kNone), p merges with the site `equal`.
   std::uint32_t locate(const V3d& p, std::uint32_t& equal);
   std::uint32_t locateFromNearest(const V3d& p, std::uint32_t from, std::uint32_t& equal);
   // Enlarges the scratch memory of insert() if needed; returns whether it did. Each triangle of the hole adds

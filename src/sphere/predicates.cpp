@@ -107,8 +107,7 @@ int exactSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
       .sign();
 }
 
-// The sign of the first nonzero derivative of exactSide, in the order in which coordinates are perturbed. 0
-// only if two points are equal.
+// The sign of the first nonzero derivative of exactSide, as coordinates are perturbed; 0: equal points.
 int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
   std::array<int, 4> order;

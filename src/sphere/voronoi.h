@@ -47,8 +47,7 @@ class BaseTriangulation {
   std::unique_ptr<const Data> data_;
 };
 
-// One thread's memory for queries, with the triangulation of the last query. A query allocates memory only if
-// it needs more than all earlier ones.
+// A thread's memory for queries, with the last triangulation. Queries only allocate what they need more.
 class VoronoiWorkspace {
  public:
   VoronoiWorkspace();

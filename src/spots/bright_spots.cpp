@@ -61,8 +61,7 @@ struct BrightSpots::Node {
       found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
     return found;
   }
-  // The product of the light that the spot reflects and its brightness. Aiming at spots of higher worth
-  // reduces the variance more.
+  // The light that the spot reflects times its brightness. Aiming at it reduces the variance accordingly.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
     const auto axis = static_cast<int>(box.majorAxis());

@@ -65,8 +65,7 @@ struct Highlight {
   // The square root of the determinant of the covariance of the directions (sr).
   double spread;
 
-  // at: the place on the surface that mirrors the middle of the part towards the point (world). normal: the
-  // normal of the surface there (unit).
+  // at: the place that mirrors the middle of the part towards the point (world). normal: there (unit).
   Highlight(const V3d& at, const V3d& normal, const Bend& bend, double roughness, const SourcePart& part,
             const V3d& point);
 };

@@ -84,16 +84,14 @@ struct Found {
   TriangleHit triangleHit;
 };
 
-// The query that belongs to a ray of Embree, in the coordinates of the queried tree. Embree passes the
-// context to the callbacks.
+// The query of a ray of Embree, in the coordinates of the tree. Embree passes the context to callbacks.
 struct Query {
   embree::QueryContext context;  // must be first: callbacks cast its address to that of the Query
   V3d origin, direction;
   double start = 0;     // distance along the true ray at which Embree's ray starts
   double farthest = 0;  // limit of the query
   double samePlace;     // Scene::samePlace, in units of this tree
-  // Hits closer to the origin are ignored: Scene::samePlace, or that of the contents of an instance or mesh.
-  // Less if the ray starts in space.
+  // Hits closer to the origin are ignored: Scene::samePlace, or that of contents. Less if it starts in space.
   double nearest;
   uint8_t depth = 0;  // of the tree: the number of placements that lead to it
   Found best;         // shadow(): the source itself, if it is a surface
@@ -350,8 +348,7 @@ class Tracer::Tree {
     return true;
   }
 
-  // Embree's callbacks. `meet` returns whether the primitive is the nearest hit so far, `cross` whether it
-  // certainly stops the ray.
+  // Embree's callbacks. `meet`: is the primitive the nearest hit so far? `cross`: does it stop the ray?
   template <bool (Tree::*meet)(Query&, uint32_t) const>
   static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
     if (!arguments->valid[0]) return;

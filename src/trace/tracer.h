@@ -93,8 +93,7 @@ class Tracer {
   // The bounds of each surface, instance and mesh of the world that may refract rays.
   const std::vector<Box3d>& refracting() const { return refracting_; }
 
-  // A region around a point of a surface, in which to search for small objects. Lengths are in world units;
-  // the normal is a unit vector.
+  // A region around a point of a surface, to search for small objects (world units; unit normal).
   struct Neighborhood {
     V3d point, normal;
     double radius = 0;

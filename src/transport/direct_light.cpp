@@ -291,8 +291,7 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
     Contribution& c = ranked(tested);
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // After an indirect bounce, the remaining contributions are estimated without bias: noise averages out
-  // there, but bias would not.
+  // After an indirect bounce, the rest is estimated without bias: noise averages out, bias would not.
   if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
   // Sources too weak to be tested are assumed to be visible as often as the tested sources of their kind.
   // Kinds are distinguished because the visibility of lamps does not predict that of the sun, and vice versa.

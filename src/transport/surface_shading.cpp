@@ -224,8 +224,7 @@ bool SurfaceShading::estimate(RayEnd& end, const CrossesMist& boundary, RayResul
 
 bool SurfaceShading::estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result) {
   if (!entersCut(t_.scene(), boundary, end)) return estimate(end, Passes{}, result);
-  // The material is on the other side of the antimatter's surface: a ray that leaves antimatter enters a
-  // dielectric, and vice versa.
+  // The material is on the other side of antimatter's surface: a ray that leaves one enters the other.
   flip(end.hit);
   end.hit.insideOut = !end.hit.insideOut;
   return shadeChain(end, boundary.cut.modifier, result);

@@ -1,6 +1,5 @@
 #pragma once
-// The data that all path tracers of a run share: the prepared scene, the aims of gathers, and the caches of
-// interpolated light.
+// What all path tracers of a run share: the prepared scene, the aims of gathers, and the caches.
 #include "rays/prepared_scene.h"
 #include "transport/aims.h"
 #include "transport/caches.h"
