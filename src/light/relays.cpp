@@ -339,7 +339,7 @@ class Images {
   Side sideLit(LightId index) const {
     const LightSource& source = sources_[index];
     const Relay& last = relays_[relayOf_[index]];
-    // A mirror reflects on its front, even if its plane cuts the source; a prism's light goes away from the image.
+    // A mirror reflects on its front, even if it cuts the source; a prism's light goes away from the image.
     const double side =
         isPrism(last) ? source.center.dot(last.normal) - (source.isDistant() ? 0 : last.offset) : -1;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};

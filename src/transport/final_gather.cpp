@@ -54,7 +54,7 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   const GatherDirections directions(path.settings.aims, site.point, site.normal, site.normal, count);
   sendOverHemisphere(t_, directions, path.state, root.end, site.point, kReflectedAmbient,
                      DirectionSet(count, path.state.random), Coefficient(1), Coefficient(kMeanReflectance),
-                     [&](const NextRay& next) {
+                     [&, x = x, y = y](const NextRay& next) {
                        countDescendants(path.settings, path.state, next.context);
                        const RayResult seen = path.follower.follow(next.query, next.context);
                        const int cell = cells.cellOf(next.query.direction, x, y, site.normal);

@@ -29,7 +29,7 @@ double samplingSigmas(const V3d& middle, double widest, uint64_t seed, const Dra
   constexpr int kRows = 40, kColumns = 24, kFine = 24;
   std::vector<double> counts(kRows * kColumns + 1, 0.), expected(kRows * kColumns + 1, 0.);
   const auto [x, y] = frame(middle);
-  const auto cellOf = [&](const V3d& d) {
+  const auto cellOf = [&, x = x, y = y](const V3d& d) {
     const double c = std::sqrt(std::max(0., (1 - d.dot(middle)) / 2));
     if (c >= widest) return kRows * kColumns;
     const int row = std::min(kRows - 1, static_cast<int>(c / widest * kRows));

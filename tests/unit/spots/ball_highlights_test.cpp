@@ -68,7 +68,7 @@ TEST(BallHighlights, AreAimedAtAsDensitySays) {
       Random random(1);
       const auto [x, y] = frame(disk.middle());
       const double wide = .1 / (kCenter - point).length();
-      const auto some = [&](const V3d& d) { return 2 + (d.dot(x) + .5 * d.dot(y)) / wide; };
+      const auto some = [&, x = x, y = y](const V3d& d) { return 2 + (d.dot(x) + .5 * d.dot(y)) / wide; };
       for (int i = 0; i < 6000; ++i) {
         const V3d d = highlights.sample(aim, random.uniform(), random.uniform(), random.uniform());
         const bool meets = d.length2() > 0;

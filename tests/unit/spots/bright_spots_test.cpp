@@ -87,7 +87,7 @@ TEST(BrightSpots, AreAimedAtAsDensitySays) {
     Random random(1);
     Sample sampled, weighted;
     const auto [x, y] = frame(middle);
-    const auto some = [&](const V3d& d) { return 1 + 8 * d.dot(x) + 3 * d.dot(y); };
+    const auto some = [x = x, y = y](const V3d& d) { return 1 + 8 * d.dot(x) + 3 * d.dot(y); };
     for (int i = 0; i < 100000; ++i) {
       const V3d d = spots.sample(aim, random.uniform(), random.uniform(), random.uniform());
       EXPECT_NEAR(d.length(), 1, 1e-12);

@@ -76,7 +76,7 @@ TEST(CylinderHighlights, AreAimedAtAsDensitySays) {
       ++aimedAt;
       Random random(1);
       const auto [x, y] = frame(middle);
-      const auto some = [&](const V3d& d) { return 2 + d.dot(x) + .5 * d.dot(y); };
+      const auto some = [x = x, y = y](const V3d& d) { return 2 + d.dot(x) + .5 * d.dot(y); };
       for (int i = 0; i < 6000; ++i) {
         const V3d d = highlights.sample(aim, random.uniform(), random.uniform(), random.uniform());
         const bool meets = d.length2() > 0;
