@@ -111,12 +111,10 @@ struct OptionEntry : OptionForm, OptionExtras {
 // All options in the order of -defaults: those of rtrace in rtrace's order, then those of rsphere.
 std::span<const OptionEntry> optionTable();
 
-// Whether the option has an effect in the mode.
 inline bool worksIn(const OptionEntry& entry, bool sphereMode) {
   return entry.mode == Mode::both || (entry.mode == Mode::points) == sphereMode;
 }
 
-// The number of words that follow the option.
 int arity(const OptionEntry& entry);
 
 // The values before the first option: in ray mode rtrace's; in sphere mode those for thousands of directions.
@@ -126,7 +124,6 @@ Options modeDefaults(bool sphereMode);
 // reachAccuracy: these are not left out, either (-Sa).
 void setErrorDefaults(RayOptions& ray, bool reachAccuracy);
 
-// The defaults for the rays of pictures (-Si).
 RayOptions pictureDefaults();
 
 // Reads a command line; words[0] is the name of the program.
@@ -173,7 +170,6 @@ struct UsedOption {
 std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
                                        Options& options);
 
-// The texts of -help and -defaults of a companion.
 std::string companionHelp(const Companion& companion, Options& options);
 std::string companionDefaults(const Companion& companion, Options& options);
 

@@ -1,5 +1,4 @@
 #pragma once
-// Pictures as files.
 #include <string>
 #include <string_view>
 

@@ -9,7 +9,6 @@
 
 namespace rsphere {
 
-// The projection of directions onto a picture.
 enum class Projection {
   // The sphere as seen from within: +y is in the middle, +x to its right at a quarter of the width, -y at
   // both edges. Columns are even steps of azimuth; rows descend from the zenith +z to the nadir.
@@ -90,7 +89,6 @@ class ToneCurve {
   double white_ = 0;  // exposed brightness that is shown as 1; 0: colors are proportional to radiance
 };
 
-// Converts radiance to screen colors.
 void toScreen(Raster& raster, const ToneCurve& curve);
 
 // The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws

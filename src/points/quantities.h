@@ -43,7 +43,6 @@ std::span<const PointQuantity> pointQuantities();
 const PointQuantity* pointQuantity(char letter);
 // The quantities of these letters, in their order. REQUIRES that each is the letter of a quantity.
 std::vector<const PointQuantity*> pointQuantities(std::string_view letters);
-// Whether one of the letters is a standard error.
 bool haveErrors(std::string_view letters);
 // The quantities whose standard errors do not follow from that of the mean.
 Kernels::Some ownErrors(std::string_view letters);

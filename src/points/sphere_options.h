@@ -26,7 +26,6 @@ struct GlareOptions {
 // How the directions of a point are weighted.
 enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes /* c */ };
 
-// The options of the estimator of sphere mode.
 struct SphereOptions {
   int baseDirections = 2048;                    // -Sn  1 to 1,000,000
   int mostDirections = 4096;                    // -Sx  of one set

@@ -17,7 +17,6 @@ class MistSources {
   // warn: called for names that no light source has. Throws rad::Error if mists name more than 65535 sources.
   MistSources(const Scene& scene, const LightSources& lights, const rad::Warn& warn);
 
-  // All light sources that are named by any mist.
   const std::vector<LightId>& all() const { return all_; }
   // The light sources that one mist names, as indices in all().
   const std::vector<uint16_t>& of(const Mist& mist) const { return ofMist_[mist.number]; }

@@ -29,7 +29,6 @@ struct ContributionOptions : Options {
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
 
-  // Whether records have standard errors.
   bool hasErrors() const;
   // Whether -x and -y are numbers of records. With -c 0 there is a single record, the sum of all rays.
   bool countsRecords() const { return raysPerRecord > 0; }

@@ -50,7 +50,6 @@ class RecordReader {
   void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
   bool interrupted() const { return interrupted_; }
 
-  // Number of records returned.
   uint64_t records() const { return records_; }
 
   // The fraction of a regular file that has been returned, 0 to 1; 0 for other input.

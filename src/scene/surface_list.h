@@ -69,7 +69,6 @@ class SurfaceList {
     const SurfaceList* list_;
     size_t at_;
   };
-  // The first surfaces.
   struct Beginning {
     const SurfaceList& list;
     size_t count;

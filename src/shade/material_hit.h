@@ -17,7 +17,6 @@ struct MaterialOptions {
   Medium medium{};                 // of the space outside mist and dielectrics (-me -ma -mg)
 };
 
-// How a ray arrived at a surface.
 struct Arrival {
   unsigned kinds = kPrimary;  // of the ray and its ancestors
   double cosine = 1;          // -normal . direction; negative from behind
@@ -75,7 +74,6 @@ class MaterialHit {
   // those applied by modify(). Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
   virtual FunctionPoint point() const = 0;
-  // The medium that the ray travels through.
   virtual const Medium& medium() const = 0;
   // The direction (unit) to the light source at whose image the ray is aimed. REQUIRES Arrival::atImage.
   virtual V3d towardsSource() const = 0;

@@ -33,7 +33,6 @@ struct Interaction {
   unsigned kinds = kPrimary;  // of the ray and its ancestors
 };
 
-// The participating medium between surfaces.
 struct Medium {
   Color extinction{0, 0, 0};  // per unit length
   Color albedo{0, 0, 0};      // fraction of the extinction that is scattering

@@ -46,7 +46,6 @@ struct Delaunay {
   std::uint32_t insertions = 0;
   PredicateCounts counts;
 
-  // Reserves memory for this number of sites in total.
   void reserve(std::size_t count);
 
   // Starts with four different sites.

@@ -66,7 +66,6 @@ struct Figures {
 // REQUIRES: the trial has at least one repeat of the points of the reference.
 Figures figuresOf(const Trial& trial, const Reference& reference);
 
-// Sets Figures::best for each setting.
 void markBest(std::vector<Figures>& all);
 
 // The index of the fastest setting whose rmsAtMost is within the accuracy; empty if there is none.
