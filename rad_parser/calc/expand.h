@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "rad_parser/calc/functions.h"
 #include "rad_parser/calc/graph.h"
 #include "rad_parser/calc/program.h"
 #include "rad_parser/calc/syntax.h"
@@ -19,6 +19,19 @@
 // long as some argument is a new constant each time, as in the octaves of turbulence; otherwise it becomes a
 // call of a frame, which is compiled separately. Each combination of functions as arguments has its frame.
 namespace rad::calc {
+
+// A built-in function of the language. `arity`: number of arguments that it needs. Further arguments are
+// ignored, except by min, max and select, which take any number.
+struct LibraryFunction {
+  std::string_view name;
+  Op op;
+  int arity;
+};
+
+const LibraryFunction* findLibraryFunction(std::string_view name);
+
+// The operation of one of the operators + - * /.
+Op operatorOf(char c);
 
 // A name in its context. It may be used before its definition, or without any definition.
 struct Symbol {
