@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,15 @@ std::string messageLine(std::string_view text);
 
 // Whether a character is a printable ASCII character or a blank.
 inline bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
+
+// White space in files, in any locale.
+inline constexpr std::string_view kBlanks = " \t\n\v\f\r";
+constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+// The text without blanks at its ends.
+constexpr std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
 
 }  // namespace rad

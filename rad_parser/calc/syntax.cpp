@@ -16,7 +16,6 @@ using Kind = Syntax::Kind;
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 class Parser {
  public:

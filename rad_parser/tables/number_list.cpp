@@ -4,13 +4,9 @@
 
 #include "rad_parser/error.h"
 #include "rad_parser/number.h"
+#include "rad_parser/printable.h"
 
 namespace rad {
-namespace {
-
-bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-}  // namespace
 
 void NumberList::fail(const std::string& problem) const {
   throw Error(fmt::format("{}:{}: {}", name_, line_, problem));

@@ -18,12 +18,11 @@ XformFault fault(std::string_view text) { return XformFault(fmt::format("xform: 
 // The words of one line of an argument file. As in xform, quotes and backslashes are special only at the
 // beginning of a word.
 std::vector<std::string> argumentWords(std::string_view line) {
-  constexpr std::string_view kSpace = " \t\n\v\f\r";
   if (line.starts_with('!')) line.remove_prefix(1);
   if (line.starts_with("xform ")) line.remove_prefix(6);
   std::vector<std::string> words;
   for (;;) {
-    line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
     if (line.starts_with("\\\n")) {
       line.remove_prefix(2);
       continue;
@@ -36,7 +35,7 @@ std::vector<std::string> argumentWords(std::string_view line) {
       next = std::min(end + 1, line.size());
     } else {
       begin = line[0] == '\\' && line.size() > 1;
-      next = end = std::min(line.find_first_of(kSpace, begin), line.size());
+      next = end = std::min(line.find_first_of(kBlanks, begin), line.size());
     }
     words.emplace_back(line.substr(begin, end - begin));
     line.remove_prefix(next);
@@ -72,7 +71,7 @@ std::vector<std::vector<std::string>> readArgumentFile(const std::string& path, 
 std::optional<int64_t> countAfter(std::span<const std::string> words, size_t at) {
   if (at + 1 >= words.size()) return {};
   std::string_view word = words[at + 1];
-  word.remove_prefix(std::min(word.find_first_not_of(" \t\n\v\f\r"), word.size()));
+  word.remove_prefix(std::min(word.find_first_not_of(kBlanks), word.size()));
   const auto count =
       parseInteger(word.substr(0, word.find_first_not_of("0123456789", word.starts_with('+'))));
   return count && *count > 0 ? count : std::nullopt;

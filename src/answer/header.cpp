@@ -8,6 +8,7 @@
 
 #include "answer/column_names.h"
 #include "base/version.h"
+#include "rad_parser/printable.h"
 #include "records/output_colors.h"
 #include "sphere/direction_bins.h"
 
@@ -21,7 +22,7 @@ std::string quoted(const std::string& word) {
     if (word[i] == '"') quote = '\'';
     if (word[i] == '\'') quote = '"';
   }
-  const bool blanks = std::ranges::any_of(word, [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
+  const bool blanks = std::ranges::any_of(word, rad::isBlank);
   if (quote == 0 && (word.empty() || blanks)) quote = '"';
   return quote == 0 ? word : quote + word + quote;
 }

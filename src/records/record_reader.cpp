@@ -25,7 +25,6 @@ constexpr size_t kLongestWord = 4096;
 // Messages show at most this many characters of a malformed word.
 constexpr size_t kShownWord = 40;
 
-bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool isQuote(char c) { return c == '"' || c == '\''; }
 bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '.'; }
 
@@ -35,7 +34,7 @@ std::string systemText(std::string_view what) {
 }
 
 bool isText(std::string_view bytes) {
-  return std::ranges::all_of(bytes, [](char c) { return isSpace(c) || rad::isPrintable(c); });
+  return std::ranges::all_of(bytes, [](char c) { return rad::isBlank(c) || rad::isPrintable(c); });
 }
 
 std::string_view counted(int n) { return n == 1 ? "number" : "numbers"; }
@@ -142,11 +141,11 @@ size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
     std::array<double, kMostNumbers> record;
     uint64_t numberLine = line;
     for (int i = 0; i < perRecord_; ++i) {
-      for (; at < stop && isSpace(*at); ++at) line += *at == '\n';
+      for (; at < stop && rad::isBlank(*at); ++at) line += *at == '\n';
       const char* const digits = at + (at < stop && *at == '-');
       if (digits == stop || !startsNumber(*digits)) return count;
       const auto [end, error] = rad::readReal(at, stop, record[i]);
-      if (error != std::errc() || end == stop || !isSpace(*end)) return count;
+      if (error != std::errc() || end == stop || !rad::isBlank(*end)) return count;
       numberLine = line;
       at = end;
     }
@@ -164,10 +163,10 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
     }
     const char* at = block_.data() + begin_;
     const char* const stop = block_.data() + end_;
-    for (; at < stop && isSpace(*at); ++at)
+    for (; at < stop && rad::isBlank(*at); ++at)
       if (*at == '\n') newLine();
     begin_ = static_cast<size_t>(at - block_.data());
-    const char* const next = std::find_if(at, stop, isSpace);
+    const char* const next = std::find_if(at, stop, rad::isBlank);
     const std::string_view word(at, static_cast<size_t>(next - at));
     if (next == stop && !atEnd_ && word.size() <= kLongestWord) {
       // Return the records that have arrived before waiting for more.
@@ -207,9 +206,9 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
 void RecordReader::readLine(std::string_view line, bool whole) {
   int count = 0;
   for (size_t at = 0;;) {
-    while (at < line.size() && isSpace(line[at])) ++at;
+    while (at < line.size() && rad::isBlank(line[at])) ++at;
     if (at == line.size()) break;
-    const std::string_view word(line.begin() + at, std::find_if(line.begin() + at, line.end(), isSpace));
+    const std::string_view word(line.begin() + at, std::find_if(line.begin() + at, line.end(), rad::isBlank));
     const std::optional<double> x = numberOf(word);
     if (!x) malformed(word);
     if (count < perRecord_) partial_[count] = *x;
@@ -231,7 +230,7 @@ size_t RecordReader::readLines(std::vector<double>& numbers, size_t most) {
   while (count < most) {
     const char* at = block_.data() + begin_;
     const char* const stop = block_.data() + end_;
-    for (; at < stop && isSpace(*at); ++at) line_ += *at == '\n';
+    for (; at < stop && rad::isBlank(*at); ++at) line_ += *at == '\n';
     begin_ = static_cast<size_t>(at - block_.data());
     const char* const lineEnd = std::find(at, stop, '\n');
     const bool whole = lineEnd < stop || atEnd_;

@@ -111,17 +111,9 @@ class Bytes {
 constexpr size_t kLongestResolution = 30;
 constexpr size_t kMostPixels = 65536;  // in a row or a column
 
-constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 // The whole number at the beginning of a text, limited to kMostPixels + 1; none if it is below 1.
 std::optional<size_t> lengthAt(std::string_view text) {
-  text = trimmed(text);
+  text = rad::trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   size_t length = 0;
   const auto error = std::from_chars(text.data(), text.data() + text.size(), length).ec;
@@ -145,7 +137,7 @@ std::optional<Layout> readLayout(std::string_view line) {
 // The next number of a text; 0 if there is none.
 template <class T>
 T nextNumber(std::string_view& text) {
-  text = trimmed(text);
+  text = rad::trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   T number{};
   const auto end = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
@@ -167,7 +159,7 @@ Header readHeader(Bytes& bytes) {
     if (!text) bad(path, "its header does not end");
     if (text->empty() || *text == "\r") break;
     if (const auto format = after("FORMAT=", *text)) {
-      if (!trimmed(*format).empty()) header.formats.emplace_back(trimmed(*format));
+      if (!rad::trimmed(*format).empty()) header.formats.emplace_back(rad::trimmed(*format));
     } else if (auto aspect = after("PIXASPECT=", *text)) {
       header.aspect *= nextNumber<double>(*aspect);
     } else if (auto components = after("NCOMP=", *text)) {
