@@ -327,18 +327,16 @@ class Expander {
     return inner.frame->graph.add(std::move(n));
   }
 
-  // Argument number n (from 1) of a library call.
-  Id argumentOf(const Syntax& call, const Scope& scope, const LibraryFunction& f, size_t n) {
-    return n < call.args.size() ? compile(call.args[n], scope)
-                                : fail(call, scope, fmt::format("{}(): too few arguments", f.name));
-  }
-
   Id libraryCall(const Syntax& tree, const Scope& scope, const LibraryFunction& f) {
     Graph& graph = scope.frame->graph;
-    const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
+    // Argument number n, from 1.
+    const auto value = [&](size_t n) {
+      return n < tree.args.size() ? compile(tree.args[n], scope)
+                                  : fail(tree, scope, fmt::format("{}(): too few arguments", f.name));
+    };
     switch (f.op) {
-      case Op::ifPositive: return ifCall(tree, scope, f);
-      case Op::select: return selectCall(tree, scope, f);
+      case Op::ifPositive: return ifCall(graph, value);
+      case Op::select: return selectCall(graph, value, tree.args.size() - 1);
       case Op::min:
       case Op::max: {
         // The comparisons are in RADIANCE's order, which matters if a value is NaN.
@@ -347,7 +345,7 @@ class Expander {
         return graph.operate(Op::finite, extreme);
       }
       case Op::realArgument: return realArgument(tree, scope, value(1));
-      case Op::noise3: return noiseCall(tree, scope, f);
+      case Op::noise3: return noiseCall(graph, value, f.name);
       default: {
         const Id a = value(1);
         const Id b = f.arity > 1 ? value(2) : kNone;
@@ -357,9 +355,7 @@ class Expander {
     }
   }
 
-  Id ifCall(const Syntax& tree, const Scope& scope, const LibraryFunction& f) {
-    Graph& graph = scope.frame->graph;
-    const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
+  static Id ifCall(Graph& graph, const auto& value) {
     const Id condition = value(1);
     if (graph.isConstant(condition))
       return graph.operate(Op::finite, value(graph[condition].value > 0 ? 2 : 3));
@@ -372,10 +368,7 @@ class Expander {
     return graph.add(std::move(n));
   }
 
-  Id selectCall(const Syntax& tree, const Scope& scope, const LibraryFunction& f) {
-    Graph& graph = scope.frame->graph;
-    const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
-    const size_t given = tree.args.size() - 1;
+  static Id selectCall(Graph& graph, const auto& value, size_t given) {
     const Id index = value(1);
     if (graph.isConstant(index)) {
       const double x = graph[index].value;
@@ -392,13 +385,11 @@ class Expander {
   }
 
   // noise3, and its backward differences noise3x, noise3y and noise3z.
-  Id noiseCall(const Syntax& tree, const Scope& scope, const LibraryFunction& f) {
-    Graph& graph = scope.frame->graph;
-    const auto value = [&](size_t n) { return argumentOf(tree, scope, f, n); };
+  static Id noiseCall(Graph& graph, const auto& value, std::string_view name) {
     const Id p[3] = {value(1), value(2), value(3)};
     const Id here = graph.operate(Op::noise3, p[0], p[1], p[2]);
-    if (f.name == "noise3") return here;
-    const size_t axis = static_cast<size_t>(f.name.back() - 'x');
+    if (name == "noise3") return here;
+    const size_t axis = static_cast<size_t>(name.back() - 'x');
     Id q[3] = {p[0], p[1], p[2]};
     q[axis] = graph.operate(Op::subtract, q[axis], graph.constant(kNoiseStep));
     const Id before = graph.operate(Op::noise3, q[0], q[1], q[2]);
