@@ -115,6 +115,12 @@ rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options option
   return options;
 }
 
+// The numbers of records.
+template <typename Record>
+std::span<const double> numbersOf(std::span<const Record> records) {
+  return {reinterpret_cast<const double*>(records.data()), records.size_bytes() / sizeof(double)};
+}
+
 // The goals of importance(); empty for other calls.
 struct Goals {
   std::span<const std::string> modifiers;
@@ -601,39 +607,33 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 RayAnswers Scene::trace(std::span<const Ray> rays, const Options& options) const {
-  const std::span numbers(reinterpret_cast<const double*>(rays.data()), 6 * rays.size());
-  return implementation_->answer<RayAnswers>(numbers, options, Records::rays);
+  return implementation_->answer<RayAnswers>(numbersOf(rays), options, Records::rays);
 }
 
 PointAnswers Scene::sphere(std::span<const Point> points, const Options& options) const {
-  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
-  return implementation_->answer<PointAnswers>(numbers, options, Records::points);
+  return implementation_->answer<PointAnswers>(numbersOf(points), options, Records::points);
 }
 
 PointAnswers Scene::importance(std::span<const Point> points, const std::vector<std::string>& goals,
                                const Options& options) const {
   if (goals.empty()) throw Error("importance() needs the modifier of at least one goal", Error::Cause::input);
-  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
-  return implementation_->answer<PointAnswers>(numbers, options, Records::points, {goals, {}});
+  return implementation_->answer<PointAnswers>(numbersOf(points), options, Records::points, {goals, {}});
 }
 
 PointAnswers Scene::importanceOfSensors(std::span<const Point> points, std::span<const Sensor> sensors,
                                         const Options& options) const {
   if (sensors.empty()) throw Error("importanceOfSensors() needs at least one sensor", Error::Cause::input);
-  const std::span numbers(reinterpret_cast<const double*>(points.data()), 3 * points.size());
-  const std::span ofSensors(reinterpret_cast<const double*>(sensors.data()), 6 * sensors.size());
-  return implementation_->answer<PointAnswers>(numbers, options, Records::points, {{}, ofSensors});
+  return implementation_->answer<PointAnswers>(numbersOf(points), options, Records::points,
+                                               {{}, numbersOf(sensors)});
 }
 
 GlareAnswers Scene::glare(std::span<const Ray> eyes, const Options& options) const {
-  const std::span numbers(reinterpret_cast<const double*>(eyes.data()), 6 * eyes.size());
-  return implementation_->answer<GlareAnswers>(numbers, options, Records::glare);
+  return implementation_->answer<GlareAnswers>(numbersOf(eyes), options, Records::glare);
 }
 
 Contributions Scene::contributions(std::span<const Ray> rays, const std::vector<std::string>& of,
                                    const ContributionOptions& options) const {
-  const std::span numbers(reinterpret_cast<const double*>(rays.data()), 6 * rays.size());
-  return implementation_->contributions(numbers, of, options);
+  return implementation_->contributions(numbersOf(rays), of, options);
 }
 
 std::vector<std::array<double, 3>> zoneMiddles(size_t count) {
