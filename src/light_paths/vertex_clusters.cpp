@@ -185,20 +185,17 @@ void VertexClusters::measure(size_t i) {
 
 // Estimates the light from each cluster: 0 only if all of its vertices are hidden or have the weight 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
-  const V3d from = to.point - middle_;
-  const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
-             pz = static_cast<float>(from.z);
-  const auto nx = static_cast<float>(to.normal.x), ny = static_cast<float>(to.normal.y),
-             nz = static_cast<float>(to.normal.z);
-  const float ax = std::abs(nx), ay = std::abs(ny), az = std::abs(nz);
+  const Imath::V3f p(to.point - middle_), n(to.normal);
+  const float ax = std::abs(n.x), ay = std::abs(n.y), az = std::abs(n.z);
   const auto width2 = static_cast<float>(falloff_.width2);
   const float byNearest = falloff_.byNearest;
   const auto& [center, half, spread] = boxes_;
   const auto& [axis, halfAlong, sine] = normals_;
   for (size_t i = 0; i < kCount; ++i) {
-    const float x = center.x[i] - px, y = center.y[i] - py, z = center.z[i] - pz;
+    const float x = center.x[i] - p.x, y = center.y[i] - p.y, z = center.z[i] - p.z;
     const float square = x * x + y * y + z * z;
-    const float here = meanAbove(x * nx + y * ny + z * nz, half.x[i] * ax + half.y[i] * ay + half.z[i] * az);
+    const float here =
+        meanAbove(x * n.x + y * n.y + z * n.z, half.x[i] * ax + half.y[i] * ay + half.z[i] * az);
     const float there = meanAbove(-(x * axis.x[i] + y * axis.y[i] + z * axis.z[i]),
                                   halfAlong[i] + sine[i] * (std::abs(x) + std::abs(y) + std::abs(z)));
     const float mean = square + spread[i];

@@ -246,17 +246,13 @@ void BrightSpots::keep(const Spot& spot) {
 // A spot is treated as a small flat surface with its normal. Spots around or near the point are ignored.
 RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const AimFrom& from, Aim& aim) const {
   const auto& [point, front, rays, all] = from;
-  const auto atX = static_cast<float>(point.x - spots_.origin.x),
-             atY = static_cast<float>(point.y - spots_.origin.y),
-             atZ = static_cast<float>(point.z - spots_.origin.z);
-  const auto frontX = static_cast<float>(front.x), frontY = static_cast<float>(front.y),
-             frontZ = static_cast<float>(front.z);
+  const Imath::V3f at(point - spots_.origin), ahead(front);
   const auto negligible = static_cast<float>(samePlace_ * samePlace_);  // so that no squared distance is 0
   Spots::Numbers comes;
   for (size_t i = 0; i < spots_.count; ++i) {
-    const float x = spots_.x[i] - atX, y = spots_.y[i] - atY, z = spots_.z[i] - atZ;
+    const float x = spots_.x[i] - at.x, y = spots_.y[i] - at.y, z = spots_.z[i] - at.z;
     const float squared = x * x + y * y + z * z + negligible, inverse = 1 / std::sqrt(squared);
-    const float cosine = (x * frontX + y * frontY + z * frontZ + spots_.radius[i]) * inverse;
+    const float cosine = (x * ahead.x + y * ahead.y + z * ahead.z + spots_.radius[i]) * inverse;
     const float facing =
         spots_.anyway[i] - (x * spots_.normalX[i] + y * spots_.normalY[i] + z * spots_.normalZ[i]) * inverse;
     const float before = std::min(std::max(cosine, 0.f), 1.f), seen = std::min(std::max(facing, 0.f), 1.f);
