@@ -118,18 +118,14 @@ bool SurfaceChart::setPolygon(const Polygon& polygon, const SurfacePlace& place)
   }
   x_ = (x_ - x_.dot(normal_) * normal_).normalized();
   y_ = normal_.cross(x_);
-  double low[2] = {0, 0}, high[2] = {0, 0};
+  Imath::Box2d around({0, 0});
   const V3d first = toWorld(corner[0]);
   for (uint32_t i = 1; i < count; ++i) {
     const V3d way = toWorld(corner[i]) - first;
-    const double at[2] = {way.dot(x_), way.dot(y_)};
-    for (int c = 0; c < 2; ++c) {
-      low[c] = std::min(low[c], at[c]);
-      high[c] = std::max(high[c], at[c]);
-    }
+    around.extendBy({way.dot(x_), way.dot(y_)});
   }
-  origin_ = first + low[0] * x_ + low[1] * y_;
-  return setPlace(high[0] - low[0], high[1] - low[1], place.point);
+  origin_ = first + around.min.x * x_ + around.min.y * y_;
+  return setPlace(around.size().x, around.size().y, place.point);
 }
 
 bool SurfaceChart::setRing(const Ring& ring, const SurfacePlace& place) {

@@ -19,19 +19,15 @@ Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> po
   }
   r.x = (r.x - r.x.dot(r.normal) * r.normal).normalized();
   r.y = r.normal.cross(r.x);
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  Imath::Box2d around;
   for (const Polygon* polygon : polygons)
     for (const V3d& corner : cornersOf(scene, *polygon)) {
       const V3d way = corner - first[0];
-      const double to[2] = {way.dot(r.x), way.dot(r.y)};
-      for (int c = 0; c < 2; ++c) {
-        low[c] = std::min(low[c], to[c]);
-        high[c] = std::max(high[c], to[c]);
-      }
+      around.extendBy({way.dot(r.x), way.dot(r.y)});
     }
-  r.corner = first[0] + low[0] * r.x + low[1] * r.y;
-  r.width = high[0] - low[0];
-  r.height = high[1] - low[1];
+  r.corner = first[0] + around.min.x * r.x + around.min.y * r.y;
+  r.width = around.size().x;
+  r.height = around.size().y;
   return r;
 }
 

@@ -158,25 +158,21 @@ void merge(std::vector<Opening>& panes) {
       const V3d between = b.corner - a.corner;
       // Panes within these tolerances are coplanar: 1e-4 of their size, and an angle of .08 degrees.
       const double scale = 1e-4 * (a.width + a.height);
-      double low[2] = {0, 0}, high[2] = {a.width, a.height};
+      Imath::Box2d around({0, 0}, {a.width, a.height});
       bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
       for (int c = 0; c < 4 && together; ++c) {
         const V3d way = b.at(c & 1, c >> 1) - a.corner;
-        const double at[2] = {way.dot(a.x), way.dot(a.y)};
-        for (int k = 0; k < 2; ++k) {
-          low[k] = std::min(low[k], at[k]);
-          high[k] = std::max(high[k], at[k]);
-        }
+        around.extendBy({way.dot(a.x), way.dot(a.y)});
       }
-      together = together &&
-                 (high[0] - low[0]) * (high[1] - low[1]) * tuning::Openings::kFilled < a.filled + b.filled;
+      const Imath::V2d size = around.size();
+      together = together && size.x * size.y * tuning::Openings::kFilled < a.filled + b.filled;
       if (!together) {
         ++j;
         continue;
       }
-      a.corner += low[0] * a.x + low[1] * a.y;
-      a.width = high[0] - low[0];
-      a.height = high[1] - low[1];
+      a.corner += around.min.x * a.x + around.min.y * a.y;
+      a.width = size.x;
+      a.height = size.y;
       a.filled += b.filled;
       a.power += b.power;
       panes.erase(panes.begin() + static_cast<ptrdiff_t>(j));
