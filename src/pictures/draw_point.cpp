@@ -183,6 +183,33 @@ void smoothDirect(Pixels& pixels) {
   for (size_t i = 0; i < light.size(); ++i) light[i] -= indirect[i];
 }
 
+// Marks pixels in soft shadows whose direct light differs from nearby by more than smoothing may remove.
+std::vector<bool> noisyShadows(const Pixels& pixels) {
+  const int width = pixels.seen.width, height = pixels.seen.height;
+  std::vector<bool> marked(pixels.middles.size(), false);
+  const auto compare = [&](size_t here, int column, int row) {
+    if (row >= height || (column >= width && !pixels.seen.wraps)) return;
+    const size_t there =
+        static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
+    if (!pixels.middles[there].sharesDirect ||
+        !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
+      return;
+    const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
+                     b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
+    if (apart.length() > OfPictures::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
+  };
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
+      if (!pixels.middles[here].sharesDirect) continue;
+      for (int step = 1; step <= 2; ++step) {
+        compare(here, column + step, row);
+        compare(here, column, row + step);
+      }
+    }
+  return marked;
+}
+
 class Painter {
  public:
   Painter(const V3d& point, const PixelMap& map, const Transport& transport, const SeenSources& sources,
@@ -393,33 +420,6 @@ class Painter {
   const SpectralSampling* const sampling_;
   const int sharing_;  // one pixel in a square of this side gathers
 };
-
-// Marks pixels in soft shadows whose direct light differs from nearby by more than smoothing may remove.
-std::vector<bool> noisyShadows(const Pixels& pixels) {
-  const int width = pixels.seen.width, height = pixels.seen.height;
-  std::vector<bool> marked(pixels.middles.size(), false);
-  const auto compare = [&](size_t here, int column, int row) {
-    if (row >= height || (column >= width && !pixels.seen.wraps)) return;
-    const size_t there =
-        static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
-    if (!pixels.middles[there].sharesDirect ||
-        !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
-      return;
-    const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
-                     b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
-    if (apart.length() > OfPictures::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
-  };
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
-      if (!pixels.middles[here].sharesDirect) continue;
-      for (int step = 1; step <= 2; ++step) {
-        compare(here, column + step, row);
-        compare(here, column, row + step);
-      }
-    }
-  return marked;
-}
 
 }  // namespace
 
