@@ -185,11 +185,7 @@ Header readHeader(Bytes& bytes) {
   return header;
 }
 
-// The size of a picture whose shorter side is 1.
-struct Size {
-  double x, y;
-};
-Size sizeOf(size_t columns, size_t rows, double aspect) {
+PictureSize sizeOf(size_t columns, size_t rows, double aspect) {
   const double height = static_cast<double>(rows) * aspect;
   const auto width = static_cast<double>(columns);
   return {std::max(1., width / height), std::max(1., height / width)};
@@ -301,6 +297,18 @@ Weights weightsAt(double position, size_t count) {
   return {index, i + 1 - position, position - i};
 }
 
+// Calls use(pixel, weight of its row, weight of its column) for the pixels among which the value at fractions
+// (u, v) of the size is interpolated.
+template <class Use>
+void eachNearby(double u, double v, size_t width, size_t height, const Use& use) {
+  const Weights along = weightsAt(u * static_cast<double>(width - 1), width);
+  const Weights up = weightsAt(v * static_cast<double>(height - 1), height);
+  for (size_t row = 0; row < std::min<size_t>(height, 2); ++row)
+    for (size_t column = 0; column < std::min<size_t>(width, 2); ++column)
+      use((up.index + row) * width + along.index + column, row == 0 ? up.first : up.second,
+          column == 0 ? along.first : along.second);
+}
+
 constexpr std::string_view kColors = "32-bit_rle_rgbe", kSpectra = "Radiance_spectra";
 
 // Rejects a picture whose file is too short, before memory is allocated. In the new code, two bytes hold at
@@ -336,29 +344,19 @@ Picture Picture::read(const std::string& path) {
     reader.read(row);
     for (size_t j = 0; j < layout.columns; ++j) picture.pixels_[placeOf(layout, i, j)] = row[j];
   }
-  const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
-  picture.sizeX_ = size.x;
-  picture.sizeY_ = size.y;
+  picture.size_ = sizeOf(picture.width_, picture.height_, header.aspect);
   return picture;
 }
 
 Color Picture::value(double x, double y) const {
-  const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
-  const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
   Color sum(0, 0, 0);
-  const auto addPixel = [&](size_t i, double weight) {
+  eachNearby(x / size_.x, y / size_.y, width_, height_, [&](size_t i, double ofRow, double ofColumn) {
+    if (std::abs(ofRow) <= 1e-6) return;
     float rgb[3];
     decode(pixels_[i], rgb);
+    const double weight = ofRow * ofColumn;
     sum += Color(weight * rgb[0], weight * rgb[1], weight * rgb[2]);
-  };
-  const auto add = [&](size_t row, double weight) {
-    if (std::abs(weight) <= 1e-6) return;
-    const size_t first = row * width_ + along.index;
-    addPixel(first, weight * along.first);
-    if (width_ > 1) addPixel(first + 1, weight * along.second);
-  };
-  add(up.index, up.first);
-  if (height_ > 1) add(up.index + 1, up.second);
+  });
   return sum;
 }
 
@@ -392,28 +390,19 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
       for (size_t i = 0; i < stride;)
         for (const char byte : bytes.take(stride - i)) pixel[i++] = static_cast<uint8_t>(byte);
     }
-  const Size size = sizeOf(picture.width_, picture.height_, header.aspect);
-  picture.sizeX_ = size.x;
-  picture.sizeY_ = size.y;
+  picture.size_ = sizeOf(picture.width_, picture.height_, header.aspect);
   return picture;
 }
 
 void SpectralPicture::value(double x, double y, std::span<double> spectrum) const {
-  const Weights along = weightsAt(x / sizeX_ * static_cast<double>(width_ - 1), width_);
-  const Weights up = weightsAt(y / sizeY_ * static_cast<double>(height_ - 1), height_);
   std::ranges::fill(spectrum, 0.);
-  const auto add = [&](size_t row, size_t column, double weight) {
+  eachNearby(x / size_.x, y / size_.y, width_, height_, [&](size_t i, double ofRow, double ofColumn) {
+    const double weight = ofRow * ofColumn;
     if (std::abs(weight) <= 1e-6) return;
-    const uint8_t* const pixel = &pixels_[(row * width_ + column) * (components_ + 1)];
+    const uint8_t* const pixel = &pixels_[i * (components_ + 1)];
     const double step = weight * stepOf(pixel[components_]);
-    for (size_t i = 0; i < components_; ++i) spectrum[i] += step * (pixel[i] + .5);
-  };
-  const auto addRow = [&](size_t row, double weight) {
-    add(row, along.index, weight * along.first);
-    if (width_ > 1) add(row, along.index + 1, weight * along.second);
-  };
-  addRow(up.index, up.first);
-  if (height_ > 1) addRow(up.index + 1, up.second);
+    for (size_t c = 0; c < components_; ++c) spectrum[c] += step * (pixel[c] + .5);
+  });
 }
 
 }  // namespace rsphere

@@ -13,6 +13,11 @@ namespace rsphere {
 // A pixel in RADIANCE's format: three mantissas and a shared exponent.
 using Rgbe = std::array<uint8_t, 4>;
 
+// Size of a picture with the shorter side 1, considering PIXASPECT.
+struct PictureSize {
+  double x = 1, y = 1;
+};
+
 // A picture for patterns and mixtures: radiances over a rectangle whose shorter side is 1. Immutable.
 class Picture {
  public:
@@ -33,7 +38,7 @@ class Picture {
 
  private:
   size_t width_ = 0, height_ = 0;
-  double sizeX_ = 1, sizeY_ = 1;
+  PictureSize size_;
   std::vector<Rgbe> pixels_;  // the lowest row first, each from left to right
 };
 
@@ -57,7 +62,7 @@ class SpectralPicture {
 
  private:
   size_t width_ = 0, height_ = 0;
-  double sizeX_ = 1, sizeY_ = 1;
+  PictureSize size_;
   size_t components_ = 0;
   double first_ = 0, last_ = 0;
   std::vector<uint8_t> pixels_;  // components and exponent, as in the file; in the order of Picture::pixels_
