@@ -228,18 +228,6 @@ class Color {
 
 // The color whose value in each channel and band is f of the values of two, or three, colors.
 template <class F>
-Color combined(const Color& a, const Color& b, const F& f) {
-  const V3d rgb(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
-  if (!a.bands() && !b.bands()) [[likely]]
-    return Color(rgb);
-  const BandScheme& scheme = (a.bands() ? a : b).bands().scheme();
-  Bands result = a.bandsIn(scheme);
-  const Bands second = b.bandsIn(scheme);
-  for (size_t i = 0; i < second.values().size(); ++i)
-    result.values()[i] = f(result.values()[i], second.values()[i]);
-  return Color(rgb, std::move(result));
-}
-template <class F>
 Color combined(const Color& a, const Color& b, const Color& c, const F& f) {
   const V3d rgb(f(a.x, b.x, c.x), f(a.y, b.y, c.y), f(a.z, b.z, c.z));
   if (!a.bands() && !b.bands() && !c.bands()) [[likely]]
@@ -250,6 +238,10 @@ Color combined(const Color& a, const Color& b, const Color& c, const F& f) {
   for (size_t i = 0; i < second.values().size(); ++i)
     result.values()[i] = f(result.values()[i], second.values()[i], third.values()[i]);
   return Color(rgb, std::move(result));
+}
+template <class F>
+Color combined(const Color& a, const Color& b, const F& f) {
+  return combined(a, b, b, [&](double x, double y, double) { return f(x, y); });
 }
 
 // Weights of the channels in the brightness, for RADIANCE's primaries and its white point (1/3, 1/3). rtrace
