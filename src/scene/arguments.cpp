@@ -38,10 +38,7 @@ V3d PrimitiveArguments::vector(size_t at) const {
   return V3d(r[at], r[at + 1], r[at + 2]);
 }
 
-Color PrimitiveArguments::color(size_t at) const {
-  const auto r = reals();
-  return Color(r[at], r[at + 1], r[at + 2]);
-}
+Color PrimitiveArguments::color(size_t at) const { return Color(vector(at)); }
 
 void PrimitiveArguments::needReals(size_t count) const {
   if (reals().size() != count) fail(fmt::format("expected {} real arguments, got {}", count, reals().size()));

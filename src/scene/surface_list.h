@@ -54,7 +54,6 @@ class SurfaceList {
     using iterator_category = std::input_iterator_tag;
     using value_type = Surface;
     using difference_type = std::ptrdiff_t;
-    using pointer = void;
     using reference = Surface;
 
     Iterator(const SurfaceList& list, size_t at) : list_(&list), at_(at) {}
