@@ -27,11 +27,6 @@ bool tooSmall(std::string_view digits) {
   return exponent + static_cast<int64_t>(point) - static_cast<int64_t>(first) < 0;
 }
 
-// Powers of ten up to 22 are exact in a double: 5^22 < 2^53.
-constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
 // Powers of ten, by the number of digits that are read together.
 constexpr std::array<uint64_t, 9> kScale = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
@@ -88,12 +83,12 @@ std::from_chars_result readReal(const char* first, const char* last, double& val
     if (at == power || (at != last && isDigit(*at))) count = 0;
     exponent += down ? -size : size;
   }
-  constexpr auto kLargest = static_cast<ptrdiff_t>(kPowers.size()) - 1;
+  constexpr auto kLargest = static_cast<ptrdiff_t>(kExactPowers.size()) - 1;
   if (count == 0 || count > 15 || exponent < -kLargest || exponent > kLargest)
     return std::from_chars(first, last, value);
   const auto integer = static_cast<double>(digits);
-  const double size = exponent < 0 ? integer / kPowers[static_cast<size_t>(-exponent)]
-                                   : integer * kPowers[static_cast<size_t>(exponent)];
+  const double size = exponent < 0 ? integer / kExactPowers[static_cast<size_t>(-exponent)]
+                                   : integer * kExactPowers[static_cast<size_t>(exponent)];
   value = negative ? -size : size;
   return {at, std::errc()};
 }

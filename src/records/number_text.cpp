@@ -7,16 +7,14 @@
 #include <cstdint>
 #include <cstring>
 
+#include "rad_parser/number.h"
+
 namespace rsphere {
 namespace {
 
 constexpr int kDigits = 7;  // digits printed by "%e", before and after the point
 
-// Powers of ten up to 22 are exact in a double: 5^22 < 2^53.
-constexpr int kLargestExactPower = 22;
-constexpr std::array<double, kLargestExactPower + 1> kPowers = {
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr int kLargestExactPower = rad::kExactPowers.size() - 1;
 
 constexpr std::array<char, 200> kPairs = [] {
   std::array<char, 200> pairs{};
@@ -50,10 +48,10 @@ void appendScientific(std::string& text, double x) {
     }
     return appendLibrary(text, x);
   }
-  double scaled = power >= 0 ? size * kPowers[power] : size / kPowers[-power];
+  double scaled = power >= 0 ? size * rad::kExactPowers[power] : size / rad::kExactPowers[-power];
   if (scaled >= 1e7) {
     ++exponent;
-    scaled = power >= 1 ? size * kPowers[power - 1] : size / kPowers[1 - power];
+    scaled = power >= 1 ? size * rad::kExactPowers[power - 1] : size / rad::kExactPowers[1 - power];
   }
   // `scaled` is below 1e7 and was rounded once, so its error is below 2^-53 * 1e7 = 1.2e-9. If it is within
   // 1e-8 of the middle between two integers, exact arithmetic of the library decides.
