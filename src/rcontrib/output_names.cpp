@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -17,11 +18,7 @@ struct Format {
   };
   std::vector<Part> parts;
 
-  bool has(Kind kind) const {
-    for (const Part& part : parts)
-      if (part.kind == kind) return true;
-    return false;
-  }
+  bool has(Kind kind) const { return std::ranges::find(parts, kind, &Part::kind) != parts.end(); }
 };
 
 [[noreturn]] void wrongFormat(std::string_view option, const std::string& spec) {
