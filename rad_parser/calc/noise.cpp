@@ -1,6 +1,7 @@
 #include "rad_parser/calc/noise.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace rad::calc {
