@@ -13,7 +13,10 @@ struct LightVertex {
     unweighed,          // directly from a source for which the density of shadow rays is unknown
     diffuse,            // directly from a diffuse reflection
     highlight,          // directly from a source's highlight on a rough surface
-    sharp               // from any other highlight, or from a sharp reflection
+    // From a diffuse reflection or from beyond a portal, by sharp reflections at panes and mirrors. The
+    // diffuse surface did not receive the light directly from a highlight or from any other sharp reflection.
+    mirrored,
+    sharp  // from any other highlight, or from any other sharp reflection
   };
   // Light paths are divided into this number of batches. The differences between the batches give an estimate
   // of the error that the vertices cause.
@@ -29,7 +32,7 @@ struct LightVertex {
 
   // Whether the light of the vertex is added with the unbounded kernel 1 / d^2 (vertex_light.h), because rays
   // towards near surfaces do not sample this light.
-  bool isUnbounded() const { return way == highlight || way == sharp; }
+  bool isUnbounded() const { return way == highlight || way == mirrored || way == sharp; }
   V3d point() const { return V3d(place[0], place[1], place[2]); }
   V3d normal() const { return V3d(facing[0], facing[1], facing[2]); }
 };

@@ -120,7 +120,11 @@ class LightVertices::Path {
   // Importance has them: they are the last steps of light that rays from a goal find by the same reflections.
   bool losesCaustics() const { return past_.fromSource && !prepared_.scene().importance; }
   void reflectedSharply() {
-    past_.way = LightVertex::sharp;
+    const bool isDiffuse =
+        past_.way == LightVertex::diffuse && (!past_.senderIsUnbounded || past_.senderIsMirrored);
+    const bool isSky = past_.way == LightVertex::unweighed && !past_.fromSource;
+    if (past_.way != LightVertex::mirrored)
+      past_.way = isDiffuse || isSky ? LightVertex::mirrored : LightVertex::sharp;
     past_.fromSource = false;
     beam_.length = 0;
   }
@@ -153,8 +157,9 @@ class LightVertices::Path {
     LightId source;  // kNone: the sky
     double cosineAtSource = 0;
     LightVertex::Way way = LightVertex::direct;
-    bool senderIsUnbounded = false;  // isUnbounded() of the vertex that sent the light
-    bool fromSource = true;          // no surface has reflected the light yet; false for light of the sky
+    // isUnbounded() of the vertex that sent the light, and whether its light was mirrored.
+    bool senderIsUnbounded = false, senderIsMirrored = false;
+    bool fromSource = true;  // no surface has reflected the light yet; false for light of the sky
     int bounces = 0;
   };
 
@@ -337,7 +342,9 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   beam_.direction = sentFrom(at.normal, random_);
   beam_.power =
       Irradiance(beam_.power.color * at.color() * (diffuseShare(m, at.normal.dot(beam_.direction)) * scale));
-  past_.senderIsUnbounded = past_.way == LightVertex::sharp || past_.way == LightVertex::highlight;
+  past_.senderIsMirrored = past_.way == LightVertex::mirrored;
+  past_.senderIsUnbounded =
+      past_.senderIsMirrored || past_.way == LightVertex::sharp || past_.way == LightVertex::highlight;
   past_.way = LightVertex::diffuse;
   ++past_.bounces;
   return std::abs(brightness(beam_.power)) > 0;

@@ -42,6 +42,11 @@ struct NearLight {
   // gaps. A gap is narrow if it is small compared with fromEye, the distance of the place from the eye. Joins
   // use the bounded kernel of light between diffuse surfaces.
   double closeShare(double distance, double fromEye) const;
+  // The fraction of mirrored light (LightVertex::mirrored) at a place that joins of the place with the eye
+  // estimate; rays from the place estimate the rest. The vertices of this light are few. Close to a surface,
+  // most answers would find none of them nearby, and lack its light: 2 cm below a light shelf, the light that
+  // a window reflects onto the shelf, 7% of all, was missing in eleven of twelve answers.
+  double joinedOfMirrored(double fromEye) const { return 1 - share(fromEye); }
 };
 
 // A vertex that may be connected directly to the eye, which is the point whose answer is computed.
@@ -60,6 +65,7 @@ struct VisibleVertex {
   // The fraction of the vertex's light that joins with an eye at this distance estimate.
   double joinedShare(const NearLight& near, double fromEye) const {
     if (vertex.way == LightVertex::diffuse) return near.closeShare(length, fromEye) * near.share(length);
+    if (vertex.way == LightVertex::mirrored) return near.joinedOfMirrored(fromEye);
     return vertex.way == LightVertex::highlight ? 1 - near.share(length) : 1;
   }
 };

@@ -214,7 +214,10 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
                                  Scratch& scratch) const {
   if (how.bounces < 1) return {};
   const Radiance far = ofVertices(at, how, random);
-  const Radiance near = far + ofNear(at, how, random, scratch);
+  Radiance near = far + ofNear(at, how, random, scratch);
+  const bool mayMirror = how.fromEye > 0 && surfaces_.mayMirror();
+  if (mayMirror && random.uniform() >= vertices_.nearLight().joinedOfMirrored(how.fromEye))
+    near += ofMirrored(at, how, random, scratch);
   return surfaces_.portals().empty() ? near : near + ofPortals(at, how, random);
 }
 
@@ -289,14 +292,62 @@ Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& 
   const double left = how.fromEye > 0 ? 1 - vertices_.nearLight().closeShare(sight.distance, how.fromEye) : 1;
   const Coefficient share(sight.passed.color * there.color() *
                           (left * diffuseShare(*there.material, -there.normal.dot(direction))));
+  Radiance sum = diffusedAt(there, share, how, random, scratch);
+  if (how.fromEye > 0 && hasRoughHighlight(*there.material))
+    sum += sight.passed * directOf(there, {.view = direction, .shown = Shown::highlight}, random, scratch);
+  return sum;
+}
+
+// The light that a place `there` reflects diffusely to another place. share: factor on the light that arrives
+// there. how: of the other place.
+Radiance VertexLight::diffusedAt(const PlainPlace& there, const Coefficient& share, const Indirect& how,
+                                 Random& random, Scratch& scratch) const {
   Radiance sum = directAt(there, random, scratch);
   if (how.bounces > 1)
     sum +=
         indirectAt(there, {how.bounces - 1, 0, how.record, how.scale * share, how.outdoors}, random, scratch);
-  sum = sum * share;
-  if (how.fromEye > 0 && hasRoughHighlight(*there.material))
-    sum += sight.passed * directOf(there, {.view = direction, .shown = Shown::highlight}, random, scratch);
-  return sum;
+  return sum * share;
+}
+
+// The mirrored light (LightVertex::mirrored) that arrives, by one ray that panes and mirrors reflect.
+Radiance VertexLight::ofMirrored(const PlainPlace& at, const Indirect& how, Random& random,
+                                 Scratch& scratch) const {
+  constexpr int kMostHits = 32;  // for mirrors that face each other
+  V3d origin = at.point;
+  V3d direction = [&] {
+    const double u1 = random.uniform(), u2 = random.uniform();
+    return diffuseDirection(at.normal, u1, u2);
+  }();
+  SurfaceId start = at.surface;
+  Coefficient passed(1);
+  bool isMirrored = false;
+  for (int hits = 0; hits < kMostHits; ++hits) {
+    const Meeting met = surfaces_.meet(origin, direction, start, isMirrored, random);
+    origin += met.distance * direction;
+    if (met.leaves) {
+      const int bounces = prepared_.options().ambientBounces - how.bounces + 1;
+      return isMirrored ? passed * (*how.outdoors)(origin, direction, bounces, random) : Radiance();
+    }
+    if (!met.goesOn) {
+      if (!isMirrored || met.hit.surface == kNone) return {};
+      const PlainPlace there = surfaces_.placeOf(origin - met.distance * direction, direction,
+                                                 {met.hit, met.distance, passed}, scratch.functions);
+      if (!there.material) return {};
+      const Coefficient share(passed.color * there.color() *
+                              diffuseShare(*there.material, -there.normal.dot(direction)));
+      Radiance sum = diffusedAt(there, share, how, random, scratch);
+      if (how.bounces > 1)
+        sum += ofMirrored(there, {how.bounces - 1, 0, how.record, how.scale * share, how.outdoors}, random,
+                          scratch) *
+               share;
+      return sum;
+    }
+    passed *= met.passed;
+    isMirrored = isMirrored || met.isReflected;
+    direction = met.next;
+    start = met.hit.surface;
+  }
+  return {};
 }
 
 }  // namespace rsphere

@@ -60,7 +60,8 @@ class VertexLight {
   };
   struct Indirect {
     int bounces = 1;  // limit for the light: -ab minus the bounces between the eye and the place
-    // Distance from the eye, if joins of vertices at the place with the eye estimate closeShare(); or 0.
+    // Distance from the eye, if joins of light vertices at the place with the eye estimate closeShare() and
+    // joinedOfMirrored(); otherwise 0.
     double fromEye = 0;
     Record* record = nullptr;                   // null: contributions are not recorded
     Coefficient scale{1};                       // factor on the recorded contributions (sr)
@@ -89,6 +90,9 @@ class VertexLight {
   Radiance ofVertex(const PlainPlace& at, size_t i) const;
   Radiance ofPortals(const PlainPlace& at, const Indirect& how, Random& random) const;
   Radiance ofNear(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
+  Radiance ofMirrored(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
+  Radiance diffusedAt(const PlainPlace& there, const Coefficient& share, const Indirect& how, Random& random,
+                      Scratch& scratch) const;
 
   const PreparedScene& prepared_;
   const PlainSurfaces& surfaces_;
