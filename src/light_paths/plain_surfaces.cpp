@@ -87,7 +87,7 @@ PlainSurfaces::PlainSurfaces(const PreparedScene& prepared, Portals portals)
     const Mirror* const mirror = plain ? std::get_if<Mirror>(material) : nullptr;
     if (mirror && mirror->alternate.kind == Alternate::Kind::none) f.mirror = mirror;
     hasPanes_ = hasPanes_ || f.pane;
-    hasMirrors_ = hasMirrors_ || f.mirror;
+    coverage_.mirrors = coverage_.mirrors || f.pane || f.mirror;
     finishes_.push_back(f);
   }
   placePortals();
@@ -276,37 +276,6 @@ Sight PlainSurfaces::look(const V3d& origin, const V3d& direction, double farthe
     sight.distance = leaving;
   }
   return sight;
-}
-
-Meeting PlainSurfaces::meet(const V3d& origin, const V3d& direction, SurfaceId start, bool mirrored,
-                            Random& random) const {
-  const double leaving = portals_.leaving(origin, direction, kFarAway);
-  Meeting met;
-  met.hit = tracer_.nearest(origin, direction, std::min(leaving, kFarAway), start);
-  met.distance = met.hit.surface == kNone ? leaving : met.hit.distance;
-  met.leaves = met.hit.surface == kNone && leaving < kFarAway;
-  if (met.hit.surface == kNone || met.hit.perturbation != V3d(0, 0, 0)) return met;
-  const PlainFinish& finish = finishOf(met.hit.surface);
-  if (!finish.pane && !(finish.mirror && met.hit.cosine > 0)) return met;
-  const Interaction view = plainInteraction(direction, met.hit.normal, finish.pane != nullptr);
-  const Scattering s = finish.pane ? scatter(*finish.pane, view) : scatter(*finish.mirror, view);
-  double reflected = 0;  // probability
-  for (const SharpPath& path : s.sharp)
-    if (path.kind == kReflected) reflected = maxChannel(path.coefficient);
-  if (reflected > 0 && !mirrored) reflected = std::max(reflected, .5);
-  double left = random.uniform();
-  for (const SharpPath& path : s.sharp) {
-    const bool isReflected = path.kind == kReflected;
-    const double probability =
-        isReflected ? reflected : std::min(maxChannel(path.coefficient), 1 - reflected);
-    if ((left -= probability) >= 0) continue;
-    met.goesOn = true;
-    met.isReflected = isReflected;
-    met.next = isReflected ? path.direction : direction;
-    met.passed = path.coefficient * (1 / probability);
-    break;
-  }
-  return met;
 }
 
 Coefficient PlainSurfaces::passing(const V3d& to, const V3d& from, SurfaceId start) const {

@@ -34,17 +34,6 @@ struct Sight {
   bool leaves = false;    // through a portal, at this distance
 };
 
-// The next hit along a line that panes and mirrors may reflect.
-struct Meeting {
-  Hit hit;
-  double distance = 0;  // of the hit, or of the portal
-  bool leaves = false;  // through a portal, at this distance
-  bool goesOn = false;  // from a pane or a mirror, in the direction `next` (unit)
-  bool isReflected = false;
-  V3d next{0, 0, 0};
-  Coefficient passed{1};  // fraction of the light, divided by the probability of this direction
-};
-
 // The material of a finish (scene/surface_list.h) as seen by bidirectional estimation. At most one is not
 // null; all are null if the finish is not known.
 struct PlainFinish {
@@ -75,6 +64,7 @@ class PlainSurfaces {
     bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
+    bool mirrors = false;  // panes or mirrors reflect light between known surfaces
   };
   const Coverage& coverage() const { return coverage_; }
 
@@ -99,12 +89,6 @@ class PlainSurfaces {
   // Follows a straight line through panes of glass, up to a portal. direction: unit. start: the surface on
   // which the line starts, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
-  // Whether panes or mirrors reflect light between known surfaces.
-  bool mayMirror() const { return hasPanes_ || hasMirrors_; }
-  // Follows a line to its next hit, up to a portal. At a pane, it is reflected or transmitted at random;
-  // mirrored: whether it has been reflected before. If not, it is reflected with a probability of at least
-  // one half.
-  Meeting meet(const V3d& origin, const V3d& direction, SurfaceId start, bool mirrored, Random& random) const;
   // The transmittance of the panes on the straight line between two places (world); black if anything else
   // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`.
   Coefficient passing(const V3d& to, const V3d& from, SurfaceId start) const;
@@ -132,7 +116,7 @@ class PlainSurfaces {
   std::vector<PlainFinish> finishes_;
   ById<LightId, bool> knownSources_;
   Coverage coverage_;
-  bool hasPanes_ = false, hasMirrors_ = false;
+  bool hasPanes_ = false;
 };
 
 // The probability of choosing this source by PlainSurfaces::weigh(); 0 if hidden. weights: room for these.

@@ -33,6 +33,51 @@ std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const L
                      VertexClusters::boxesOf(vertices.all(), vertices.clusterEnds()), 0);
 }
 
+// The next hit along a line that panes and mirrors may reflect.
+struct Meeting {
+  Hit hit;
+  double distance = 0;  // of the hit, or of the portal
+  bool leaves = false;  // through a portal, at this distance
+  bool goesOn = false;  // from a pane or a mirror, in the direction `next` (unit)
+  bool isReflected = false;
+  V3d next{0, 0, 0};
+  Coefficient passed{1};  // fraction of the light, divided by the probability of this direction
+};
+
+// Follows a line to its next hit, up to a portal. At a pane, it is reflected or transmitted at random.
+// mirrored: whether it has been reflected before; if not, it is reflected with a probability of at least one
+// half.
+Meeting meet(const PreparedScene& prepared, const PlainSurfaces& surfaces, const V3d& origin,
+             const V3d& direction, SurfaceId start, bool mirrored, Random& random) {
+  const double leaving = surfaces.portals().leaving(origin, direction, kFarAway);
+  Meeting met;
+  met.hit = prepared.tracer().nearest(origin, direction, std::min(leaving, kFarAway), start);
+  met.distance = met.hit.surface == kNone ? leaving : met.hit.distance;
+  met.leaves = met.hit.surface == kNone && leaving < kFarAway;
+  if (met.hit.surface == kNone || met.hit.perturbation != V3d(0, 0, 0)) return met;
+  const PlainFinish& finish = surfaces.finishOf(met.hit.surface);
+  if (!finish.pane && !(finish.mirror && met.hit.cosine > 0)) return met;
+  const Interaction view = plainInteraction(direction, met.hit.normal, finish.pane != nullptr);
+  const Scattering s = finish.pane ? scatter(*finish.pane, view) : scatter(*finish.mirror, view);
+  double reflected = 0;  // probability
+  for (const SharpPath& path : s.sharp)
+    if (path.kind == kReflected) reflected = maxChannel(path.coefficient);
+  if (reflected > 0 && !mirrored) reflected = std::max(reflected, .5);
+  double left = random.uniform();
+  for (const SharpPath& path : s.sharp) {
+    const bool isReflected = path.kind == kReflected;
+    const double probability =
+        isReflected ? reflected : std::min(maxChannel(path.coefficient), 1 - reflected);
+    if ((left -= probability) >= 0) continue;
+    met.goesOn = true;
+    met.isReflected = isReflected;
+    met.next = isReflected ? path.direction : direction;
+    met.passed = path.coefficient * (1 / probability);
+    break;
+  }
+  return met;
+}
+
 }  // namespace
 
 VertexLight::VertexLight(const PreparedScene& prepared, const PlainSurfaces& surfaces,
@@ -215,7 +260,7 @@ Radiance VertexLight::indirectAt(const PlainPlace& at, const Indirect& how, Rand
   if (how.bounces < 1) return {};
   const Radiance far = ofVertices(at, how, random);
   Radiance near = far + ofNear(at, how, random, scratch);
-  const bool mayMirror = how.fromEye > 0 && surfaces_.mayMirror();
+  const bool mayMirror = how.fromEye > 0 && surfaces_.coverage().mirrors;
   if (mayMirror && random.uniform() >= vertices_.nearLight().joinedOfMirrored(how.fromEye))
     near += ofMirrored(at, how, random, scratch);
   return surfaces_.portals().empty() ? near : near + ofPortals(at, how, random);
@@ -322,7 +367,7 @@ Radiance VertexLight::ofMirrored(const PlainPlace& at, const Indirect& how, Rand
   Coefficient passed(1);
   bool isMirrored = false;
   for (int hits = 0; hits < kMostHits; ++hits) {
-    const Meeting met = surfaces_.meet(origin, direction, start, isMirrored, random);
+    const Meeting met = meet(prepared_, surfaces_, origin, direction, start, isMirrored, random);
     origin += met.distance * direction;
     if (met.leaves) {
       const int bounces = prepared_.options().ambientBounces - how.bounces + 1;
