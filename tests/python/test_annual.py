@@ -211,7 +211,12 @@ class Annual(unittest.TestCase):
                             (["--weather", "w", "r.rad", "-d", "x"], "argument -d/--divisions: invalid int"),
                             (["--weather", "w", "r.rad", "--spacing", "0"], "--spacing must be from 1e-06"),
                             (["--weather", "nowhere", "r.rad"], "nowhere: cannot be read: No such file"), (["w.epw", "r.rad"], "w.epw: cannot be read: No such file"),
-                            (["w.epw"], "needs scene files, or --coefficients alone"), (["r.rad", "w.epw"], "needs --weather FILE"),
+                            (["w.epw"], "needs scene files, or --coefficients alone"), (["r.rad", "w.epw"], "w.epw: cannot be read: No such file"),
+                            (["a.wea", "r.rad", "b.epw"], "a.wea and b.epw are weather, of which there is one"), (["a.wea", "--weather", "b", "r.rad"], "b and a.wea are weather"),
+                            (["a.wea", "r.rad", "--day", "3-1"], "--day needs --sunlight NAME"), (["a.wea", "r.rad", "--sun-altitude", "9"], "--sun-altitude needs --sunlight"),
+                            (["a.wea", "r.rad", "--landscape", "x"], "--landscape needs --view H"), (["a.wea", "r.rad", "--view", "1", "--landscape", "ground"], "--landscape ground: is ground, too"),
+                            (["a.wea", "r.rad", "--sensors", "s", "--margin", "1"], "--margin belongs to a grid"), (["a.wea", "r.rad", "--sensors", "s", "--height", "1"], "--height is that of a grid"),
+                            (["a.wea", "--coefficients", "c", "--shades", "pane"], "--shades needs scene files instead of"), (["a.wea", "--coefficients", "c", "-d", "99"], "-d needs scene files"),
                             (["--weather", "w", "r.rad", "--on", "a", "--sensors", "s"], "not both"),
                             (["--weather", "w", "r.rad", "--shades", "pane=r.rad"], "--shades pane=r.rad: is a file of the scene")):
             with self.subTest(words):

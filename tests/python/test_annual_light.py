@@ -494,7 +494,8 @@ class Closed(InAFolder):
         for name, text in (("empty.rad", "# nothing\n"), ("material.rad", BLACK), ("undefined.rad", "foo polygon b 0 0 9 0 0 0 1 0 0 1 1 0\n"), ("binary.rad", b"a\0"),
                            ("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source s 0 0 4 0 0 1 360\n"), ("ball.rad", pane + "pane sphere ball 0 0 4 2 0 1.5 .2\n"), ("pane.rad", pane),
                            ("double.rad", pane + "pane polygon outer 0 0 12 1 -.02 1 1 -.02 2 3 -.02 2 3 -.02 1\n"), ("w7.txt", "1 2 3 4 5 6 7\n"), ("nan.txt", "nan 0 0 0 0 1\n"),
-                           ("csv.txt", "1,1,1,0,0,1\n"), ("head.txt", "x y z dx dy dz\n"), ("none.txt", "\n"), ("wide.txt", "1 1 1 0 0 1\n".encode("utf-16")), ("points.txt", "1 2\n")):
+                           ("csv.txt", "1,1,1,0,0,1\n"), ("head.txt", "x y z dx dy dz\n"), ("none.txt", "\n"), ("wide.txt", "1 1 1 0 0 1\n".encode("utf-16")), ("points.txt", "1 2\n"),
+                           ("some.rad", "black polygon pane 0 0 12 4 1 1 4 1 2 4 2 2 4 2 1\n"), ("mat.rad", "void plastic board 0 0 5 .5 .5 .5 0 0\nboard polygon mat 0 0 12 0 0 .1 4 0 .1 4 4 .1 0 4 .1\n"), ("far.txt", "2000 3000 800 0 0 1\n")):
             self.file(text, name)
         with self.command("--unknown", stderr=subprocess.PIPE) as run:
             self.assertIn("unrecognized arguments: --unknown", run.communicate()[1])  # this has written w.wea and room.rad
@@ -507,23 +508,30 @@ class Closed(InAFolder):
             (shades("black=."), ".: cannot be read: Is a directory"), (shades("black=empty.rad"), "empty.rad: has nothing that could be lowered"), (shades("black=binary.rad"), "binary.rad:1: is not a text"),
             (shades("black=undefined.rad"), 'undefined.rad:1: undefined modifier "foo"'), (shades("black=sky.rad"), "has a sky, or something above"), (shades("black", "sill"), "--shades sill: has windows that"),
             (shades("black", "black"), "--shades black: has windows that"), ([*shades("pane"), "ball.rad"], 'ball.rad:3: sphere "ball" has the modifier of --shades pane, but only polygons'),
-            (["--on", "flor"], 'no polygon or modifier "flor"'), (["room.rad"], "room.rad: is named twice"), (["gone.rad"], "gone.rad: cannot open scene file"), (["w.wea"], 'w.wea:1: undefined modifier "place"'),
+            (shades("sill"), "--shades sill: no light passes through sill: is this the modifier of panes?"), ([*shades("pane", "black"), "pane.rad"], "--shades black: no light passes through"),
+            (shades("black="), "--shades black=: there is nothing behind ="), ([*shades("black=./room.rad")], "--shades black=./room.rad: is a file of the scene"), (["./room.rad"], "is named twice"),
+            (["--on", "mat", "--on", "board", "mat.rad"], "--on board: has mat, which --on mat has already"), (["--on", "flor"], 'no polygon or modifier "flor"'), (["room.rad"], "room.rad: is named twice"), (["gone.rad"], "gone.rad: cannot open scene file"), (["w.wea"], "w.wea and w.wea are weather, of which there is one"),
             (["--sensors", "none"], "none: cannot be read"), (["--sensors", "w7.txt"], "w7.txt:1: a sensor is a place and"), (["--sensors", "nan.txt"], 'nan.txt:1: x must be a number, not "nan"'),
             (["--sensors", "csv.txt"], "csv.txt:1: a sensor is a place"), (["--sensors", "head.txt"], 'head.txt:1: x must be a number, not "x"'), (["--sensors", "none.txt"], "none.txt: has no sensors"),
             (["--sensors", "wide.txt"], "wide.txt:1: is not a text file"), (["--sensors", "."], ".: cannot be read"), (["--margin", "3"], "no point of the grid is inside the polygon"), (["-b", "0"], "--bounces must be from 1"),
             (["--height", "nan"], "--height must be from"), (["--accuracy", "0"], "--accuracy must be from"), (["-e", "1"], "--estimates must be from 2"), (["--sunlight", "points.txt"], "points.txt:1: a point in a window"),
             (["-o", "w.wea"], "w.wea: cannot be made"))
-        start = [built("rsphere-annual"), "--weather", "w.wea", "-d", "16", "-e", "2", "--spacing", "4", "room.rad"]
+        start = [built("rsphere-annual"), "--weather", "w.wea", "-d", "16", "-e", "2", "room.rad"]
+        grid = lambda words: [] if "--sensors" in words else ["--spacing", "4"]  # noqa: E731
         for words, said in refused:
             with self.subTest(words):
-                run = run_here([*start, *words])
+                run = run_here([*start, *grid(words), *words])
                 self.assertEqual((run.returncode, run.stdout, run.stderr.count("fatal")), (1, "", 1), run.stderr)
                 self.assertIn(said, run.stderr)
                 self.assertEqual(run.stderr.count("\n"), 1 + run.stderr.count("warning"))
-        for words, said in (([*shades("pane", "sill"), "pane.rad"], "--shades sill: lowered, they change the light at no sensor"), ([*shades("black=material.rad")], "--shades black: lowered, they change the light at no sensor"),
+        for words, said in (([*shades("pane=material.rad"), "pane.rad"], "--shades pane: lowered, they change the light at no sensor"),
+                            ([*shades("pane"), "pane.rad", "some.rad"], "--shades pane: no light passes through pane, which gets blinds, too"), (["--sunlight", "black"], "--sunlight black: no light passes through"),
+                            (["--on", "top", "--height", "1"], "--on top: faces down, and so do its sensors"), (["--on", "floor", "--height", "9"], "--on floor: something is between it and the sensors, 9 away"),
+                            (["--spacing", "90"], "--on floor: has one sensor; is --spacing in"), (["--sensors", "far.txt"], "--sensors: 1 of 1 are farther from the scene than it is large"),
+                            (["-d", "32"], "-d is given twice; the last, 32, holds"), (["-b", "8", "-b", "8", "--margin", ".5", "--margin", "0"], "--margin is given twice; the last, 0.0, holds"),
                             ([*shades("pane"), "double.rad"], "--shades pane: glazing and outer are panes of one window, and both get blinds")):
             with self.subTest(words):
-                run = run_here([*start, *words])
+                run = run_here([*start, *grid(words), *words])
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertEqual(run.stderr.count(said), 1, run.stderr)
 

@@ -113,8 +113,10 @@ class Reports(InAFolder):
                          ["desk1", "around desk1", "background of desk1", "desk2", "around desk2", "background of desk2", "board", "around board"])
 
     def test_dark_and_narrow(self):
-        """No luminaire at all; a corridor that is narrower than two margins; eyes above the ceiling."""
-        report = self.report(["task floor 34.2", "eyes spacing 3"], ROOM)
+        """No luminaire at all; luminaires behind the ceiling; a corridor that is narrower than two margins; eyes above the ceiling."""
+        with self.assertRaisesRegex(Fault, "the scene has no light sources; a report is on a room"):
+            self.report(["task floor 34.2", "eyes spacing 3"], ROOM)
+        report = self.report(["task floor 34.2", "eyes spacing 3"], ROOM + lamp(at=(4, 2.5, 3.5)))
         self.assertEqual(self.row(report, "floor", "E_m").value, 0)
         narrow = "\n".join(line.replace(" 5 ", " .8 ") if "polygon" in line else line for line in ROOM.split("\n")) + lamp("tube", (4, .4, 2.9))
         report = self.report(["task floor 5.1.1", "eyes spacing 3"], narrow)

@@ -166,6 +166,9 @@ class Tables(InAFolder):
             (self.file("TILT=NONE\n1 x\n", "bad.ies"), (), r'bad\.ies:2: the lumens of a lamp must be a number, not "x"'),
             (os.path.join(self.folder.name, "none.ldt"), (), r"none\.ldt: cannot be read"),
             (self.folder.name + "/", (), "cannot be read"),
+            (PANEL, ("--csv", "--svg"), "argument --svg: not allowed with argument --csv"),
+            (PANEL, ("-u", "mm"), "-u is that of a scene, without --ugr"),
+            (PANEL, ("--factor", "0"), "--factor must be from 1e-06 to"),
             (PANEL, ("--spacing", "2"), "invalid choice: '?2'?"),
         ):
             with self.subTest(words=words):

@@ -17,14 +17,30 @@ def program(name):
     return name
 
 
+def noting(kind):
+    """A kind of argparse's actions whose options are noted by Options."""
+    class Noting(kind):
+        def __call__(self, parser, namespace, values, option_string=None):
+            if self.option_strings:
+                parser.note(self, values, option_string)
+            super().__call__(parser, namespace, values, option_string)
+    return Noting
+
+
 class Options(argparse.ArgumentParser):
-    """The options of a command, with help as rsphere prints it. words: what follows the options; text: what is behind the list."""
+    """The options of a command, with help as rsphere prints it. words: what follows the options; text: what is behind the list.
+
+    As in rsphere, the last one holds of options of one value; a warning says so if they differ.
+    """
 
     def __init__(self, words, text=""):
         from . import __version__
 
         super().__init__(prog=os.path.basename(sys.argv[0]), add_help=False, allow_abbrev=False)
-        self.words, self.text = words, text
+        self.words, self.text, self.noted = words, text, {}
+        for name in ("store", "store_const", "store_true", "append"):
+            self.register("action", name, noting(self._registry_get("action", name)))
+        self.register("action", None, self._registry_get("action", "store"))
         self.add_argument("-h", "-help", "--help", action="help", help="this list")
         self.add_argument("-version", "--version", action="version", version=f"rsphere {__version__}", help="of rsphere")
 
@@ -39,10 +55,30 @@ class Options(argparse.ArgumentParser):
             lines.append(f"  {names:<24} {action.help}{default}")
         return "\n".join([*lines, "", self.text]).rstrip() + "\n"
 
+    def note(self, action, value, option):
+        if action.dest in self.noted and self.noted[action.dest][1] != value and not isinstance(action, argparse._AppendAction):
+            print(f"{self.prog}: warning - {option} is given twice; the last, {value}, holds", file=sys.stderr)
+        self.noted[action.dest] = option, value
+
+    def refuse(self, names, why):
+        """Raises Fault if one of these options was given, which would change nothing."""
+        for option, _ in (self.noted[name] for name in names if name in self.noted):
+            self.fail(f"{option} {why}")
+
+    def limit(self, given, *ranges):
+        """Raises Fault for a number that is not within its range: name, least and most."""
+        for name, least, most in ranges:
+            value = getattr(given, name)
+            if value is not None and not least <= value <= most:
+                self.fail(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
+
     def error(self, message):
+        self.fail(f"command line error: {message}; see -help")
+
+    def fail(self, text):
         from .fault import Fault
 
-        raise Fault(f"command line error: {message}; see -help")
+        raise Fault(text)
 
 
 def need(module, package):

@@ -10,7 +10,7 @@ import rsphere
 
 from ..command import Options
 from ..fault import Fault, fault
-from ..layout.room import read_polygons
+from ..layout.room import polygons_named, read_polygons
 from ..progress import PROGRESS
 from . import outside
 from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
@@ -20,7 +20,7 @@ from .matrix import read_coefficients
 from .passes import Settings
 from .report import Report
 from .sensors import read_sensors, scene_files, sensors_on
-from .shades import check_shapes, groups_of
+from .shades import check_shapes, groups_of, lightless, refuse_walls, some
 from .sky import SOLAR_CONSTANT
 from .sun import sun_position
 from .verdicts import FROM, UNTIL, verdicts_of
@@ -33,6 +33,7 @@ SUN_SHARE = 8  # of --divisions for reflected sun, whose rays take longer: least
 QUARTER_HOUR = 3.75  # degrees of longitude
 HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
 OFTEN, MANY = 0.1, 100  # share and number of hours from which on weather is surely wrong
+FACES_DOWN = 0.99  # of a normal along -z
 TINY = 1e-6  # sum of a sensor's coefficients: nothing, or of the other byte order
 
 TEXT = """\
@@ -68,13 +69,13 @@ def arguments():
     parser.add_argument("-t", "--title", default="", metavar="TEXT", help="of the page")
     parser.add_argument("-o", "--output", default="annual", metavar="FOLDER", help="for the results")
     given = parser.parse_intermixed_args()  # scene files may be before and behind options
-    for name, least, most in (("bounces", 1, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096),
-                              ("spacing", 1e-6, 1e6), ("margin", 0, 1e6), ("height", -1e6, 1e6), ("accuracy", 1e-5, 1), ("sun_altitude", 0, 45), ("view", 0, 100)):
-        value = getattr(given, name)
-        if value is not None and not least <= value <= most:
-            raise Fault(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
-    if not given.weather and given.scene and given.scene[0].lower().endswith((".epw", ".wea")):
-        given.weather, *given.scene = given.scene
+    parser.limit(given, ("bounces", 1, 50), ("divisions", 16, 65536), ("estimates", 2, MOST_ESTIMATES), ("threads", 0, 4096), ("spacing", 1e-6, 1e6),
+                 ("margin", 0, 1e6), ("height", -1e6, 1e6), ("accuracy", 1e-5, 1), ("sun_altitude", 0, 45), ("view", 0, 100))
+    weather = [*filter(None, [given.weather]), *(file for file in given.scene if file.lower().endswith((".epw", ".wea")))]
+    if len(weather) > 1:
+        raise Fault(f"{weather[0]} and {weather[1]} are weather, of which there is one")
+    if weather and not given.weather:
+        given.weather, given.scene = weather[0], [file for file in given.scene if file != weather[0]]
         if len(given.scene) == 1 and not given.scene[0].lower().endswith((".rad", ".oct")):
             given.coefficients, given.scene = given.scene[0], []
     if not given.weather:
@@ -82,21 +83,29 @@ def arguments():
     for name in ("sensors", "sunlight", "eyes", "coefficients"):
         if getattr(given, name) == "":
             raise Fault(f"--{name} has no name")
-    for file in given.scene:
-        if given.scene.count(file) > 1:
-            raise Fault(f"{file}: is named twice; its panes would stand behind each other")
+    real = [*map(os.path.realpath, given.scene)]
     for word in given.shades:
-        if word.partition("=")[2] in given.scene:
+        if "=" in word and os.path.realpath(word.partition("=")[2]) in real:
             raise Fault(f"--shades {word}: is a file of the scene, which is always there; blinds need a file of their own")
     if bool(given.scene) == bool(given.coefficients):
         raise Fault("needs scene files, or --coefficients alone")
     given.day = outside.day_of(given.day)
-    if given.coefficients and (given.sunlight or given.eyes or given.view is not None):
-        raise Fault("--sunlight, --view and --eyes need scene files")
-    if given.glare and not given.eyes:
-        raise Fault("--glare needs --eyes FILE")
+    outdoors = given.sunlight or given.view is not None
+    for unused, names, why in (
+            (given.coefficients, ("sensors", "on", "height", "spacing", "margin", "shades", "sunlight", "view", "eyes", "bounces", "divisions", "estimates",
+                                  "accuracy"), "needs scene files instead of --coefficients"),
+            (not given.eyes, ("glare",), "needs --eyes FILE"),
+            (not given.sunlight, ("day", "sun_altitude"), "needs --sunlight NAME"),
+            (given.view is None, ("landscape", "ground"), "needs --view H"),
+            (given.sensors, ("spacing", "margin"), "belongs to a grid of sensors, instead of --sensors"),
+            (given.sensors and not outdoors, ("height",), "is that of a grid instead of --sensors, or of these above the floor for --sunlight and --view")):
+        if unused:
+            parser.refuse(names, why)
     if given.on and given.sensors:
         raise Fault("sensors are those of --sensors, or a grid --on a surface, not both")
+    both = set(given.landscape) & set(given.ground)
+    if both:
+        raise Fault(f"--landscape {min(both)}: is ground, too")
     given.on = list(dict.fromkeys(given.on or [])) or ([] if given.sensors or given.coefficients else ["floor"])
     return given
 
@@ -183,6 +192,11 @@ def add_outside(given, polygons, sensors, weights, place, report):
     floor = sensors[:, 2].min() - given.height
     if given.sunlight:
         windows = outside.windows_of(given.sunlight, polygons, sensors[:, :3], floor)
+        panes = outside.panes_of(given.sunlight, polygons)
+        with tempfile.TemporaryDirectory() as folder:
+            dark = [p.name for p, d in zip(panes, lightless(panes, given.scene, sensors[:, :3], folder) if panes else ()) if d]
+        if dark:
+            warn(f"--sunlight {given.sunlight}", f"no light passes through {some(dark)}")
         verdicts, report.windows = outside.sunlight_verdicts(scene, windows, given.day, place, given.sun_altitude, through)
         report.add(verdicts, {}, f"Sunlight counts from an altitude of {given.sun_altitude:g} degrees (--sun-altitude): the table of the standard "
                                  "was not read. Hours are those in which it shines on any of the windows.")
@@ -195,21 +209,54 @@ def add_outside(given, polygons, sensors, weights, place, report):
         report.add(view.verdicts(weights), view.quantities(), *lacks)
 
 
+def check_grid(given, polygons, sensors, planes):
+    """Warns of work planes whose sensors are hardly meant. Raises Fault if two planes have a polygon in common."""
+    scene, had = rsphere.Scene(given.scene), {}
+    for name, rows in planes:
+        for p in polygons_named(polygons, name, ("--on " + name, None)):
+            if had.setdefault(id(p), name) != name:
+                raise Fault(f"--on {name}: has {p.name}, which --on {had[id(p)]} has already")
+        places, normals = sensors[rows, :3], sensors[rows, 3:]
+        if (normals[:, 2] < -FACES_DOWN).all():
+            warn("--on " + name, "faces down, and so do its sensors")
+        if len(places) == 1:
+            warn("--on " + name, "has one sensor; is --spacing in the units of the scene?")
+        lift = 1e-3 * given.height
+        rays = np.hstack([places + (lift - given.height) * normals, math.copysign(1, given.height) * normals])
+        between = scene.trace(rays, outputs="L", ambient_bounces=0).first_length < abs(given.height - lift) if given.height else np.zeros(1)
+        if between.mean() > 0.5:
+            warn("--on " + name, f"something is between it and the sensors, {given.height:g} away (--height)")
+
+
+def outside_of(polygons, places):
+    """Which places are farther from the scene than it is large."""
+    corners = np.concatenate([p.corners for p in polygons])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return np.linalg.norm(np.maximum(low - places[:, :3], places[:, :3] - high).clip(0), axis=1) > np.linalg.norm(high - low)
+
+
 def light_of_scene(given, weather, polygons, notes):
     """The Light, the sensors, for each work plane its name and which of them are on it, the eyes, and their Glare or None."""
     if given.on:
         sensors, weights, planes = sensors_on(given, polygons)
+        check_grid(given, polygons, sensors, planes)
     else:
         sensors, planes = read_sensors(given.sensors), []
         weights = np.full(len(sensors), 1 / len(sensors))
     eyes = read_sensors(given.eyes, "an eye") if given.eyes else np.zeros((0, 6))
     if given.glare and (np.hypot(eyes[:, 3], eyes[:, 4]) < 1e-6 * np.abs(eyes[:, 5])).any():
         raise fault(given.eyes, None, "has a gaze straight up or down, where glare is not defined")
+    for option, places in (("--eyes", eyes),) + (("--sensors", sensors),) * bool(given.sensors):
+        beyond = outside_of(polygons, places)
+        if beyond.any():
+            warn(option, f"{beyond.sum()} of {len(places)} are farther from the scene than it is large; are they in its units?")
     groups = groups_of(given.shades, polygons, sensors[:, :3])
     if groups:
         check_shapes(groups, given.scene)
     with tempfile.TemporaryDirectory() as folder:
         check_sky([*(file for group in groups for file in group.files), *given.scene], polygons, folder)
+        if groups:
+            refuse_walls(groups, given.scene, sensors[:, :3], folder)
         light = Light(given.scene, sensors, weights, weather, groups, folder,
                       Settings(given.bounces, given.divisions, max(16, given.divisions // SUN_SHARE), threads=given.threads), eyes)
         check_weather(given.weather, weather, light.dark_sun)

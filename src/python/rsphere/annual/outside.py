@@ -73,13 +73,18 @@ class Window:
     outwards: np.ndarray  # normal, or 0 0 0 if it is not known
 
 
+def panes_of(word, polygons):
+    """The polygons with a name or modifier."""
+    return [p for p in polygons if word in (p.modifier, p.name) and np.linalg.norm(p.vector()) > 0]
+
+
 def windows_of(word, polygons, inside, floor):
     """The reference points of --sunlight: in each polygon with a name or modifier, or in a file of points x y z.
 
     inside: points in the room; floor: its height.
     """
     found = []
-    for p in (p for p in polygons if word in (p.modifier, p.name) and np.linalg.norm(p.vector()) > 0):
+    for p in panes_of(word, polygons):
         normal = p.vector() / np.linalg.norm(p.vector())
         outwards = -normal if np.sign((inside - p.corners[0]) @ normal).sum() > 0 else normal
         middle = (p.corners.min(axis=0) + p.corners.max(axis=0)) / 2

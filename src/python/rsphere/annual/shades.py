@@ -8,8 +8,11 @@ from itertools import product
 
 import numpy as np
 
+import rsphere
+
 from ..command import program
 from ..fault import NUMBER, Fault, fault, lines_of, number
+from .outside import panes_of
 from .verdicts import SUNNY
 
 TRANSMITTANCE, REFLECTANCE = 0.02, 0.5  # of lowered blinds (the first by LM-83), both diffuse
@@ -19,6 +22,8 @@ MOST_COMBINED = 6  # groups of which all combinations are tried
 GAP, OVERLAP = 1e-4, 1e-3  # of a blind from its pane, and beyond its edges, by the pane's size: what passes beside it is negligible
 SET_OFF, LEAST = 1e-3, 2e-4  # instead of GAP, and in units of the scene, where sensors are on blinds: their rays miss nearer panes
 BEHIND = 0.25  # by their size: how far windows may be apart that are panes of one opening
+ACROSS = 0.1, 0.5, 0.9  # of the way from the middle of a pane to its corners: where rays cross it
+OPAQUE = 1e-3  # transmittance below which a polygon is no window
 MOST_PARTS, ALONG = 400, 6  # of blinds, and of one along its longer edge: the light of each is taken as even
 UP, LOWERED = 0, 1
 
@@ -43,8 +48,7 @@ class Group:
 
     def part_text(self):
         """Scene text of the sides of the parts towards the sensors, each of its own modifier."""
-        return "".join(f"{opaque(REFLECTANCE, name)}\n{name} polygon {name}\n0\n0\n"
-                       f"12 {' '.join(f'{v:.12g}' for v in corners.ravel())}\n" for name, corners in zip(self.part_names(), self.parts))
+        return "".join(f"{opaque(REFLECTANCE, name)}\n" + polygon_text(name, name, corners) for name, corners in zip(self.part_names(), self.parts))
 
     def rays_outwards(self, u, v):
         """Places of sensors at the outer sides of the parts of further, and their directions. u, v: where on each (n, 1), from 0 to 1."""
@@ -62,8 +66,16 @@ def between(corners, u, v):
     return (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c)
 
 
+def some(names):
+    return ", ".join(names[:4]) + f" and {len(names) - 4} more" * (len(names) > 4)
+
+
 def opaque(reflectance, name):
     return f"void plastic {name} 0 0 5 {reflectance} {reflectance} {reflectance} 0 0"
+
+
+def polygon_text(modifier, name, corners):
+    return f"{modifier} polygon {name}\n0\n0\n{corners.size} {' '.join(f'{v:.12g}' for v in corners.ravel())}\n"
 
 
 def size_of(p):
@@ -88,8 +100,7 @@ def covers(polygons, sensors, material, name, gap=lambda _: GAP):
     """Scene text of a material on polygons, on their side of the sensors."""
     text = f"{material}\n"
     for i, p in enumerate(polygons):
-        corners = cover(p, sensors, gap(p))[0]
-        text += f"{name} polygon {name}.{i + 1}\n0\n0\n{corners.size} {' '.join(f'{v:.12g}' for v in corners.ravel())}\n"
+        text += polygon_text(name, f"{name}.{i + 1}", cover(p, sensors, gap(p))[0])
     return text
 
 
@@ -115,10 +126,12 @@ def divided(polygons, sensors):
 def group_of(word, polygons, sensors):
     """The Group of an argument of --shades: MODIFIER, MODIFIER=TRANSMITTANCE or MODIFIER=FILE of scene text."""
     name, _, state = word.partition("=")
-    windows = [p for p in polygons if name in (p.modifier, p.name) and np.linalg.norm(p.vector()) > 0]
+    windows = panes_of(name, polygons)
     if not windows:
         known = ", ".join(sorted({p.modifier for p in polygons})[:8])
         raise Fault(f'--shades {word}: the scene has no polygon with the modifier "{name}"; it has {known}')
+    if "=" in word and not state:
+        raise Fault(f"--shades {word}: there is nothing behind =: a transmittance, or a file of blinds")
     lowered, files, t, parts = "", [], 0.0, ("", None, None, None)
     if state and not (NUMBER.fullmatch(state) or (state[0] in "+-.0123456789" and not os.path.exists(state))):
         files = [state]
@@ -157,6 +170,34 @@ def check_shapes(groups, files):
         found = behind_others(group.windows)
         if found:
             warnings.warn(f"--shades {group.name}: {found[0]} and {found[1]} are panes of one window, and both get blinds; name one of them", stacklevel=1)
+
+
+def lightless(windows, files, inside, folder):
+    """Whether no light passes through polygons: by rays across each to a light on the side of the places inside."""
+    covered = [cover(p, inside, set_off(p)) for p in windows]
+    path, names = os.path.join(folder, "lit.rad"), [f"rsphere_lit{i}" for i in range(len(windows))]
+    with open(path, "w", encoding="ascii") as stream:
+        stream.writelines(f"void glow {name} 0 0 4 1 1 1 0\n" + "".join(polygon_text(name, name, c) for c in (corners, corners[::-1]))
+                          for name, (corners, _) in zip(names, covered))
+    rays = [[*(p.corners.mean(axis=0) * (1 - t) + corner * t - way), *way / np.linalg.norm(way)]
+            for p, (_, way) in zip(windows, covered) for corner in p.corners for t in ACROSS]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the scene has warnings of its own, which come later
+        lit = rsphere.Scene([path, *files]).contributions(rays, of=names, irradiance_at_origin=True, coefficients=True, ambient_bounces=3, ambient_divisions=64)
+    of = np.repeat(np.arange(len(windows)), [len(ACROSS) * len(p.corners) for p in windows])
+    light = lit.value.reshape(len(of), len(names), -1)[np.arange(len(of)), of].mean(axis=1)
+    return np.bincount(of, light) < OPAQUE * np.pi * np.bincount(of)
+
+
+def refuse_walls(groups, files, inside, folder):
+    """Raises Fault if no light passes through the windows of a group, and warns of single ones."""
+    dark = lightless([p for group in groups for p in group.windows], files, inside, folder)
+    for group in groups:
+        names, dark = [p.name for p, d in zip(group.windows, dark) if d], dark[len(group.windows) :]
+        if len(names) == len(group.windows):
+            raise Fault(f"--shades {group.name}: no light passes through {some(names)}: is this the modifier of panes?")
+        if names:
+            warnings.warn(f"--shades {group.name}: no light passes through {some(names)}, which gets blinds, too", stacklevel=1)
 
 
 def groups_of(words, polygons, sensors):

@@ -48,11 +48,17 @@ def arguments():
     parser.add_argument("--accuracy", type=float, default=0.02, metavar="X", help="of the report: standard error of a point")
     parser.add_argument("--activities", action=Activities, nargs=0, help="with their limits, for the report")
     given = parser.parse_args()
-    for name, least, most in (("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536), ("accuracy", 1e-4, 0.5)):
-        if not least <= getattr(given, name) <= most:
-            raise Fault(f"--{name} must be from {least:g} to {most:g}")
+    parser.limit(given, ("bounces", 0, 50), ("directions", 64, 65536), ("seconds", 0.1, 1e6), ("gap", 0, 1), ("check", 0, 65536), ("accuracy", 1e-4, 0.5),
+                 ("height", -1e6, 1e6))
     if sum(map(bool, (given.polish, given.judge, given.report))) > 1:
         raise Fault("--polish, --judge and --report exclude each other")
+    for unused, names, why in (
+            (given.report, ("directions", "seconds", "gap", "check", "plan", "height"), "is that of a layout, not of --report"),
+            (given.judge, ("seconds", "gap"), "is that of a search, instead of --judge"),
+            (given.no_plan, ("plan", "height"), "is that of plans, without --no-plan"),
+            (not given.report, ("accuracy",), "needs --report")):
+        if unused:
+            parser.refuse(names, why)
     return given
 
 

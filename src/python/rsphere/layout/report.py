@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..fault import Fault
 from ..page import Page, table
 from ..photometry.position_index import position_index
 from ..progress import PROGRESS
@@ -81,7 +82,11 @@ class Light:
         rays = np.hstack([points, np.broadcast_to(normals, points.shape)])
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="-Sa")  # the errors are in the report
-            a = self.scene.trace(rays, irradiance_at_origin=True, outputs="ve", accuracy=self.accuracy)
+            warnings.filterwarnings("error", message="no light sources")
+            try:
+                a = self.scene.trace(rays, irradiance_at_origin=True, outputs="ve", accuracy=self.accuracy)
+            except UserWarning:
+                raise Fault("the scene has no light sources; a report is on a room with its luminaires, such as lamps.rad of a layout") from None
         return self.lux(a.value), self.lux(a.standard_error)
 
     def free(self, points, directions):

@@ -100,6 +100,10 @@ class Surface:
 
 def read_polygons(files):
     """All polygons of scene files, by the program plan, which reads them as rsphere does."""
+    real = [*map(os.path.realpath, files)]
+    for file, path in zip(files, real):
+        if real.count(path) > 1:
+            raise Fault(f"{file}: is named twice; its surfaces would lie in each other")
     try:
         run = subprocess.run([program("plan"), "-a", *files], capture_output=True, check=False,
                              encoding="utf-8", errors="surrogateescape")

@@ -29,9 +29,12 @@ def main():
     parser.add_argument("--ugr", action="store_true", help="print the UGR table instead of a scene")
     parser.add_argument("--spacing", type=float, choices=SPACINGS, default=SPACINGS[0], metavar="S",
                         help="of luminaires in the rooms of the table, in heights above the eye: .25 or 1")
-    parser.add_argument("--csv", dest="form", action="store_const", const=csv, default=text, help="the table as comma-separated values")
-    parser.add_argument("--svg", dest="form", action="store_const", const=svg, help="the table as a drawing")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--csv", dest="form", action="store_const", const=csv, default=text, help="the table as comma-separated values")
+    form.add_argument("--svg", dest="form", action="store_const", const=svg, help="the table as a drawing")
     given = parser.parse_args()
+    parser.limit(given, ("factor", 1e-6, 1e6))
+    parser.refuse(*((("units", "output"), "is that of a scene, without --ugr") if given.ugr else (("spacing", "form"), "needs --ugr")))
     photometry = read_luminaire(given.file, given.intensity, given.variant, given.emitter)
     if given.ugr:
         print(given.form(UgrTable(photometry, given.spacing, given.factor * photometry.tilt_factor(0))), end="")

@@ -28,6 +28,9 @@ def read_luminaire(file, intensity=None, variant=None, emitter=None):
     for given, name in ((variant, "variant"), (emitter, "emitter")):
         if given is not None and not gldf:
             raise fault(file, None, f"is not a GLDF file, which alone has a {name}")
+    ies = not gldf and ending not in ("xml", "ldt", "eul") and not first.startswith(b"<")
+    if intensity is not None and not ies:
+        raise fault(file, None, "is not an IES file, which alone may leave out its unit (--intensity)")
     if gldf:
         return read_gldf(file, variant, emitter)
     if ending == "xml" or first.startswith(b"<"):
