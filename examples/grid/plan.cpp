@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -92,15 +93,37 @@ std::vector<double> levelsOf(const std::string& list) {
   return levels;
 }
 
+void warn(std::string_view text) { fmt::print(stderr, "rsphere-plan: warning - {}\n", text); }
+
+// Options that are given, and their last arguments. They change nothing without others: these are refused.
+using Given = std::map<std::string, std::string>;
+
+void refuseUnused(const Given& given, const Settings& s) {
+  const auto refuse = [&](bool unused, const std::vector<std::string>& options, const char* why) {
+    for (const std::string& option : options)
+      if (unused && given.count(option)) throw rad::Error(fmt::format("{} {}", option, why));
+  };
+  refuse(s.picture.empty(), {"-l", "-w", "-c", "-t"}, "is for the plan of -o");
+  refuse(s.onlyPoints, {"-o", "-x", "-i", "-z", "-f", "-D", "-q"}, "excludes -p, which prints sensors alone");
+  refuse(!s.readings.empty(), {"--"}, "and what follows is for rtrace, whose place -i takes");
+}
+
 Settings settingsOf(const std::vector<std::string>& words) {
   Settings s;
+  Given given;
   size_t i = 0;
   const auto argument = [&]() -> const std::string& {
     if (i + 1 >= words.size()) throw rad::Error(fmt::format("{} needs an argument; see -help", words[i]));
-    return words[++i];
+    const std::string& option = words[i++];
+    const auto before = given.find(option);
+    if (before != given.end() && !before->second.empty() && before->second != words[i] && option != "-s" &&
+        option != "-c")
+      warn(fmt::format("{} is given twice; the last, {}, holds", option, words[i]));
+    return given[option] = words[i];
   };
   for (; i < words.size(); ++i) {
     const std::string& word = words[i];
+    given.emplace(word, "");
     if (word == "--") {
       s.rtrace.insert(s.rtrace.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
       break;
@@ -150,6 +173,7 @@ Settings settingsOf(const std::vector<std::string>& words) {
   }
   if (s.surfaces.empty() && !s.allPolygons) throw rad::Error("no polygon is named; -s NAME names one");
   if (s.files.empty()) throw rad::Error("no scene file is named");
+  refuseUnused(given, s);
   // rtrace, which reads the files again, would find a pipe empty.
   for (const std::string& file : s.files)
     if (std::filesystem::is_fifo(file))
@@ -238,8 +262,6 @@ std::string titleOf(const Settings& s) {
   return fmt::format("{} {} {} (lx)", s.maintenance == 1 ? "Illuminance" : "Maintained illuminance", where,
                      fmt::join(s.surfaces, ", "));
 }
-
-void warn(std::string_view text) { fmt::print(stderr, "rsphere-plan: warning - {}\n", text); }
 
 void printPolygons(const rad::Description& scene) {
   for (const PolygonCorners& polygon : allPolygons(scene)) {
