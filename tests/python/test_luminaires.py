@@ -53,6 +53,19 @@ def eulumdat(**changes):
     return "\r\n".join(lines) + "\r\n"
 
 
+def floodlight(kind, vertical, horizontal, candela):
+    """A file of type A or B. candela: a function of the direction: ahead, up and to the right."""
+    lines = []
+    for h in np.radians(horizontal):
+        row = []
+        for v in np.radians(vertical):
+            across = (np.sin(v), np.cos(v) * np.sin(h)) if kind == "A" else (np.cos(h) * np.sin(v), np.sin(h))
+            row.append(f"{candela(np.cos(v) * np.cos(h), *across):.9g}")
+        lines.append(" ".join(row))
+    angles = (" ".join(f"{a:g}" for a in angles) for angles in (vertical, horizontal))
+    return "\n".join(["IESNA:LM-63-2002", "TILT=NONE", f"1 -1 1 {len(vertical)} {len(horizontal)} {' CBA'.index(kind)} 2 .2 .4 0", "1 1 100", *angles, *lines]) + "\n"
+
+
 class Files(InAFolder):
     def refused(self, text, line, words, name="lamp.ies"):
         path = self.file(text, name)
@@ -62,6 +75,67 @@ class Files(InAFolder):
         self.assertTrue(str(caught.exception).startswith(place + ": "), str(caught.exception))
         self.assertNotIn("\n", str(caught.exception))
         self.assertRegex(str(caught.exception), words)
+
+
+class Floodlights(Files):
+    """Types A and B, whose angles are about an axis across the main direction."""
+
+    ALL, HALF = np.arange(-90, 91.0), np.arange(0, 91.0)
+
+    def read(self, *words):
+        return read_luminaire(self.file(floodlight(*words)))
+
+    def test_flux_and_intensities(self):
+        """Of cosines to a power: flux by its integral, and in each direction the intensity of the same source in a file of type C."""
+        random = np.random.default_rng(5).normal(size=(500, 3))
+        away = random / np.linalg.norm(random, axis=1)[:, None]
+        gammas = " ".join(f"{a:g}" for a in self.HALF)
+        for kind in "AB":
+            for power in (1, 5, 80):
+                lamp = self.read(kind, self.ALL, self.ALL, lambda ahead, *_: 1e4 * max(ahead, 0) ** power)  # noqa: B023
+                self.assertAlmostEqual(lamp.lumens() / (1e4 * 2 * np.pi / (power + 1)), 1, delta=1e-3)
+                of_c = self.file("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 91 1 1 2 .2 .4 0\n1 1 100\n" + gammas + "\n0\n"
+                                 + " ".join(f"{1e4 * max(np.cos(g), 0) ** power:.9g}" for g in np.radians(self.HALF)) + "\n", "c.ies")
+                of_c = read_luminaire(of_c)
+                np.testing.assert_allclose(lamp.intensity(away), of_c.intensity(away), atol=20)  # of 10,000 cd
+                self.assertAlmostEqual(lamp.lumens() / of_c.lumens(), 1, delta=2e-3)  # narrow beams are wider in steps of gamma
+                self.assertEqual((lamp.kind, lamp.shape, lamp.size[:2]), (kind, "box", (.4, .2)))
+
+    def test_directions(self):
+        """A beam that is aimed up and to the right has its maximum there: C0 is up and C270 to the right. Half of the angles are both halves."""
+        def beam(ahead, up, right):
+            return 1e4 * max(.8 * ahead + .36 * up + .48 * right, 0) ** 20
+        for kind in "AB":
+            lamp = self.read(kind, self.ALL, self.ALL, beam)
+            np.testing.assert_allclose(lamp.intensity(np.array([[.36, -.48, -.8], [.48, -.36, -.8], [.36, .48, -.8]])), [1e4, beam(.8, .48, .36), 0], rtol=.003, atol=3)
+            half = self.read(kind, self.HALF, self.HALF, beam)
+            np.testing.assert_allclose(half.intensity(np.array([[a, b, -.8] for a in (.36, -.36) for b in (.48, -.48)])), 1e4, rtol=.003)
+
+    def test_narrow_angles(self):
+        """There is no light beyond the angles of the file: 1000 cd within 20 degrees of latitude and 30 of longitude, either side."""
+        for kind, angles in (("A", ((-20, 0, 20), (-30, 0, 30))), ("B", ((-30, 0, 30), (-20, 0, 20)))):
+            lamp = self.read(kind, *angles, lambda *_: 1000)
+            self.assertAlmostEqual(lamp.lumens() / (1000 * np.radians(60) * 2 * np.sin(np.radians(20))), 1, delta=.02)
+            up, right = ((20, 30) if kind == "A" else (30, 20))
+            for a, b, seen in ((up - 1, 0, 1000), (up + 3, 0, 0), (0, right - 1, 1000), (0, right + 3, 0), (180, 0, 0)):
+                a, b = np.radians([a, b])
+                self.assertAlmostEqual(float(lamp.intensity([np.sin(a), -np.sin(b), -np.cos(a) * np.cos(b)])), seen, delta=1)
+
+    def test_beside_radiance(self):
+        """Illuminance (lx) from 1 m, in a file of 5 degrees, with ies2rad and rtrace of RADIANCE 6.1a in the planes C0 and C90: elsewhere
+        its angle to the side is that of a projection, and intensities are up to a third less than those of the file."""
+        fives = np.arange(-90, 91.0, 5)
+        lamp = self.read("B", fives, fives, lambda ahead, up, right: 1000 * max(ahead, 0) * (1 + .5 * up - .3 * right))
+        found = lamp.intensity([[np.sin(g) * x, np.sin(g) * y, -np.cos(g)] for g, x, y in ((0, 1, 0), *((np.radians(d), *c) for d in (30, 50) for c in ((1, 0), (0, 1))))])
+        np.testing.assert_allclose(found, [1000.5, 1083.0, 996.3, 889.1, 790.6], rtol=1e-3)
+
+    def test_ugr_table(self):
+        lamp = self.file(floodlight("B", self.ALL, self.ALL, lambda ahead, *_: max(ahead, 0)), "flood.ies")
+        run = run_here([built("rsphere-luminaire"), "--ugr", lamp])
+        self.assertEqual((run.returncode, run.stdout), (1, ""))
+        self.assertRegex(run.stderr, r"\Arsphere-luminaire: fatal - .*flood\.ies: is of type B, of floodlights; the UGR table is of [^\n]*\n\Z")
+        run = run_here([built("rsphere-luminaire"), "-o", self.folder.name, lamp])
+        self.assertIn("\n# photometry of type B: C0 is up and C270 to the right, seen along the main direction\n", run.stdout)
 
 
 class Ies(Files):
@@ -78,7 +152,11 @@ class Ies(Files):
             (self.changed("1000 1.5", "1e999 1.5"), 3, "must be from"),
             (self.changed("1000 1.5", "0 1.5"), 3, "above 0"),
             (self.changed("1.5", "1,5"), 3, "decimals need a point"),
-            (self.changed("7 5 1 1", "7 5 2 1"), 3, "type B is not supported"),
+            (self.changed("7 5 1 1", "7 5 2 1"), 6, "horizontal angle 4 of 5 must be from -90 to 90"),
+            (self.changed("7 5 1 1", "7 5 3 1"), 5, "vertical angle 5 of 7 must be from -90 to 90"),
+            (self.changed("7 5 1 1", "7 1 2 1"), 6, "horizontal angles of type B must begin at 0 or below and end above, not 0 and 0"),
+            (floodlight("B", [10, 20, 90], [0, 45, 90], lambda *_: 1), 5, "vertical angles of type B must begin at 0 or below and end above, not 10 and 90"),
+            (floodlight("A", [-90, -20, 0], [0, 45, 90], lambda *_: 1), 5, "vertical angles of type A must begin at 0 or below and end above, not -90 and 0"),
             (self.changed("7 5 1 1", "7 5 1 3"), 3, "unit of lengths"),
             (self.changed("7 5 1 1", "7 1000000000 1 1"), 3, "horizontal angles must be from"),
             (self.changed("7 5 1 1", "6 5 1 1"), 5, "vertical angles must begin"),

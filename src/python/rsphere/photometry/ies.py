@@ -1,4 +1,4 @@
-"""Reads IES LM-63 files (1986 to 2019, photometry of type C)."""
+"""Reads IES LM-63 files (1986 to 2019)."""
 import os
 
 import numpy as np
@@ -9,6 +9,9 @@ from .radiant import UNITS, unit_in
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
 FOOT = 0.3048
+PLANES = 2.0  # degrees between the C planes that stand for types A and B, and at most between their angles of gamma
+PARTS = 4  # of gamma between the angles of types A and B: a beam of 15 degrees in steps of 2.5 has its flux within .1%
+LONGITUDE, LATITUDE = 180, 90  # the largest angles of types A and B: about their axis, and from its equator
 TOLERANCE = 1e-3  # degrees, and metres where dimensions are compared
 
 
@@ -118,6 +121,52 @@ def all_round(words, planes, candela):
     )
 
 
+def by_planes(kind, vertical, horizontal, candela):
+    """Of type A or B: planes, gammas and intensities of type C, whose C0 is up and C270 to the right, seen along the main direction.
+
+    The angles are longitudes and latitudes about an axis across the main direction: of type A horizontal and vertical ones about
+    the axis that points up, of type B vertical and horizontal ones about that to the right. From 0 on, they are those of either side.
+    """
+    angles = np.unique(np.abs(np.concatenate([horizontal, vertical])))
+    gammas = np.concatenate([*(angles[:-1] + np.diff(angles) * part for part in np.arange(PARTS) / PARTS), np.arange(0, 180 + PLANES / 2, PLANES)])
+    gammas = np.unique(np.round(gammas[gammas <= (90 if angles[-1] <= 90 + TOLERANCE else 180)], 6))
+    planes = np.arange(0, 360 + PLANES / 2, PLANES)
+    c, gamma = np.meshgrid(np.radians(planes), np.radians(gammas), indexing="ij")
+    ahead, up, right = np.cos(gamma), np.sin(gamma) * np.cos(c), -np.sin(gamma) * np.sin(c)
+    axis, across = (up, right) if kind == "A" else (right, up)
+    longitude, latitude = np.degrees(np.arctan2(across, ahead)), np.degrees(np.arcsin(np.clip(axis, -1, 1)))
+    found = dict(zip(("horizontal", "vertical"), (longitude, latitude) if kind == "A" else (latitude, longitude)))
+    outside, at = np.zeros(c.shape, bool), []
+    for of, known in (("horizontal", horizontal), ("vertical", vertical)):
+        value = np.abs(found[of]) if known[0] >= 0 else found[of]
+        outside |= (value < known[0] - TOLERANCE) | (value > known[-1] + TOLERANCE)
+        at.append(np.interp(value, known, np.arange(len(known))))
+    low = [np.minimum(a.astype(int), len(known) - 2) for a, known in zip(at, (horizontal, vertical))]
+    s, t = (a - l for a, l in zip(at, low))
+    i, j = low
+    value = (candela[i, j] * (1 - t) + candela[i, j + 1] * t) * (1 - s) + (candela[i + 1, j] * (1 - t) + candela[i + 1, j + 1] * t) * s
+    return planes, gammas, np.where(outside, 0, value)
+
+
+def polar_angles(words, vertical, horizontal):
+    """The angles of type C, of so many numbers."""
+    gammas = checked_angles(words.numbers(vertical, "vertical angle", 0, 180), words.file, words.line, "vertical angles")
+    if min(gammas[0], abs(gammas[0] - 90)) > TOLERANCE or min(abs(gammas[-1] - 90), 180 - gammas[-1]) > TOLERANCE:
+        raise fault(words.file, words.line, f"vertical angles must begin at 0 or 90 and end at 90 or 180, not {gammas[0]:g} and {gammas[-1]:g}")
+    return gammas, checked_angles(words.numbers(horizontal, "horizontal angle", 0, 360), words.file, words.line, "horizontal angles")
+
+
+def angles_of(words, kind, vertical, horizontal):
+    """The angles of type A or B, of so many numbers. Raises Fault for those of another type."""
+    found = []
+    for count, of, most in ((vertical, "vertical", LATITUDE if kind == "A" else LONGITUDE), (horizontal, "horizontal", LONGITUDE if kind == "A" else LATITUDE)):
+        angles = checked_angles(words.numbers(count, f"{of} angle", -most, most), words.file, words.line, f"{of} angles")
+        if len(angles) < 2 or angles[0] > TOLERANCE or angles[-1] <= 0:
+            raise fault(words.file, words.line, f"{of} angles of type {kind} must begin at 0 or below and end above, not {angles[0]:g} and {angles[-1]:g}")
+        found.append(angles)
+    return found
+
+
 def read_ies(file, intensity=None):
     """The Photometry of an IES file. intensity: the unit of its values, whatever it says. Raises Fault with its line."""
     lines = lines_of(file)
@@ -134,21 +183,22 @@ def read_ies(file, intensity=None):
     multiplier = words.number("the multiplier", 1e-9, 1e9)
     gammas = words.whole("the number of vertical angles", 2, MOST_ANGLES)
     planes = words.whole("the number of horizontal angles", 1, MOST_ANGLES)
-    kind = words.whole("the photometric type", 1, 3)
-    if kind != 1:
-        raise fault(file, words.line, f"photometry of type {' CBA'[kind]} is not supported, but type C (1) is")
+    kind = " CBA"[words.whole("the photometric type", 1, 3)]
     metres = FOOT if words.whole("the unit of lengths (1 feet, 2 metres)", 1, 2) == 1 else 1.0
     size = [words.number(f"the {what} of the luminous opening", -1e4, 1e4) for what in ("width", "length", "height")]
     shape, size = opening_of(words, *size, metres)
     factor = words.number("the ballast factor", 1e-9, 100)
     factor *= words.number("the factor behind the ballast factor", 1e-9, 100)
     watts = words.number("the watts", 0, 1e6)
-    vertical = checked_angles(words.numbers(gammas, "vertical angle", 0, 180), file, words.line, "vertical angles")
-    if min(vertical[0], abs(vertical[0] - 90)) > TOLERANCE or min(abs(vertical[-1] - 90), 180 - vertical[-1]) > TOLERANCE:
-        raise fault(file, words.line, f"vertical angles must begin at 0 or 90 and end at 90 or 180, not {vertical[0]:g} and {vertical[-1]:g}")
-    horizontal = checked_angles(words.numbers(planes, "horizontal angle", 0, 360), file, words.line, "horizontal angles")
-    values = words.numbers(gammas * planes, "candela value", 0, 1e9)
-    horizontal, candela = all_round(words, horizontal, np.array(values).reshape(planes, gammas))
+    if kind == "C":
+        vertical, horizontal = polar_angles(words, gammas, planes)
+    else:
+        vertical, horizontal = angles_of(words, kind, gammas, planes)
+    values = np.array(words.numbers(gammas * planes, "candela value", 0, 1e9)).reshape(planes, gammas)
+    if kind == "C":
+        horizontal, candela = all_round(words, horizontal, values)
+    else:
+        horizontal, vertical, candela = by_planes(kind, vertical, horizontal, values)
     words.end()
     if not candela.any():
         raise fault(file, words.line, "all candela values are 0")
@@ -156,4 +206,5 @@ def read_ies(file, intensity=None):
     name = " ".join(keywords.get(key, "") for key in ("MANUFAC", "LUMCAT", "LUMINAIRE")).strip()
     # Type C: the plane 0 is along the luminaire. Where the opening is wider, its longer side decides.
     axis = "y" if size[1] > size[0] else "x"
-    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt, axis, unit[0])
+    notes = (f"photometry of type {kind}: C0 is up and C270 to the right, seen along the main direction",) if kind != "C" else ()
+    return Photometry(file, name or os.path.basename(file), horizontal, vertical, candela, shape, size, watts, tilt, axis, unit[0], notes, kind)

@@ -30,6 +30,7 @@ class Photometry:
     axis: str = "x"  # that a long luminaire lies along; one that is seen crosswise has it across the line of sight
     radiant: bool = False  # intensities are in W/sr and not in cd, as those of UV
     notes: tuple = ()  # what is to be said of the file
+    kind: str = "C"  # of the angles in the file: A or B are those of floodlights, which are aimed
     sides: tuple = None  # the heights of the luminous sides that face C0, C90, C180 and C270, where these differ
 
     def intensity(self, directions):

@@ -36,6 +36,8 @@ class UgrTable:
             raise fault(photometry.file, None, "has no luminous area, which UGR needs; write its width and length into the file")
         if photometry.radiant:
             raise fault(photometry.file, None, "is radiant (W/sr): its light has no UGR")
+        if photometry.kind != "C":
+            raise fault(photometry.file, None, f"is of type {photometry.kind}, of floodlights; the UGR table is of luminaires that hang in rows and aim down")
         self.photometry, self.spacing, self.factor = photometry, spacing, factor
         self.direct = Direct(photometry)
         self.values = np.array([[v for endwise in (False, True) for v in self.ratings(room, endwise)] for room in ROOMS])
