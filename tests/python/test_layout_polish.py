@@ -5,6 +5,7 @@ PROGRAMS in the environment is the folder of rsphere and plan; PYTHONPATH has th
 import argparse
 import contextlib
 import io
+import itertools
 import os
 import re
 import unittest
@@ -117,7 +118,7 @@ class Places(InAFolder):
 
     def test_polishing_goes_on_while_it_gains(self):
         """Two rounds in any case, and then halved steps until a round gains nothing."""
-        for gains, turns in (([0, 0, 1], 2), ([0, 1, 0, 1], 3), ([1, 1, 1, 0, 1], 4), ([1] * 5, 5)):
+        for gains, turns, tick in (([0, 0, 1], 2, 0), ([0, 1, 0, 1], 3, 0), ([1, 1, 1, 0, 1], 4, 0), ([1] * 5, 5, 0), ([1] * 5, 1, 15)):  # the limit is 20 s
             steps, seen = Steps.__new__(Steps), []
             steps.design, steps.given, steps.seconds = argparse.Namespace(rows=None, dims=lambda: False), argparse.Namespace(directions=64, polish=True, seconds=1, check=0), {}
             steps.candidates, steps.watts, steps.light, steps.planned_light, steps.daylight = [None] * 2, np.ones(2), None, None, [None]
@@ -134,11 +135,12 @@ class Places(InAFolder):
                 return [None], np.zeros((1, 2))
 
             patches = dict(neighbours=beside, spaces=lambda *_: np.zeros((2, 2)), light_of=lambda *_: None, joined=lambda *_: None)
-            with unittest.mock.patch.multiple("rsphere.layout.steps", **patches), contextlib.redirect_stdout(io.StringIO()):
+            with unittest.mock.patch.multiple("rsphere.layout.steps", **patches), contextlib.redirect_stdout(io.StringIO()) as said:
                 steps.timed = lambda name, function: steps.seconds.setdefault(name, 0.0) or function()  # noqa: B023
-                with unittest.mock.patch("rsphere.layout.steps.time.monotonic", lambda: 0.0):
+                with unittest.mock.patch("rsphere.layout.steps.time.monotonic", lambda clock=itertools.count(0, tick): next(clock)):
                     steps.polish("")
             self.assertEqual(seen, list(range(turns)), gains)
+            self.assertEqual("no round begins after 20 s, 20 times -s" in said.getvalue(), tick > 0)
 
     def test_fewer_watts_where_goals_are_missed(self):
         """What was found when the time was out hung all luminaires, since only what goals miss counted."""

@@ -29,6 +29,7 @@ OTHERS_SHARE = 0.1  # of it, for layouts of equal watts
 POLISH_SHARE, POLISH_GAP = 0.3, 1e-4  # of it for each round of polishing, whose search is a small one
 POLISH_DIMMED = 0.01  # what watts of levels cost there, in watts of luminaires: dimmed ones are to take less, too
 POLISH_ROUNDS = 2  # with or without a gain; then steps are halved while that gains, and takes no longer than these
+POLISH_LIMIT = 20  # times the seconds of the search: no round begins later
 POLISH_REPEATS = 2  # of its search, with what luminaires as built have shown
 ALIKE = 0.005  # the worst goals of two layouts are missed by shares that differ by less: they are equally good
 LESS = 1e-3  # of the watts: polishing saves more, or the layout stays
@@ -125,11 +126,12 @@ class Steps:
             print("Polish: rows stay where they are." if d.rows else "Polish: there is no luminaire.")
             return
         before = self.candidates, self.watts, self.light, self.layout, self.planned_light
-        cost, worst, room, begin, longest, gains = self.cost(), self.worst(), spaces(d, self.candidates), time.monotonic(), 0.0, True
+        cost, worst, room, begin, longest, gains = self.cost(), self.worst(), spaces(d, self.candidates), time.monotonic(), np.inf, True
+        limit = POLISH_LIMIT * self.given.seconds
         for turn in range(len(ROUNDS)):
             if turn == POLISH_ROUNDS:
                 longest = 2 * (time.monotonic() - begin)
-            if turn >= POLISH_ROUNDS and (not gains or time.monotonic() - begin > longest):
+            if (turn >= POLISH_ROUNDS and not gains) or time.monotonic() - begin > min(longest, limit):
                 break
             more, room_more = neighbours(d, self.candidates, self.layout.chosen, room, turn)
             if not more:
@@ -161,7 +163,8 @@ class Steps:
         else:
             self.candidates, self.watts, self.light, self.layout, self.planned_light = before
             self.polished = "light traced forward does not confirm what was planned; the layout stays"
-        print(f"Polish: {self.polished} ({self.seconds['polish']:.1f} s)")
+        longer = f"; no round begins after {limit:g} s, {POLISH_LIMIT} times -s" if time.monotonic() - begin > limit else ""
+        print(f"Polish: {self.polished}{longer} ({self.seconds['polish']:.1f} s)")
 
     @staticmethod
     def better(cost, worst, old_cost, old_worst):
