@@ -184,6 +184,15 @@ class Places(InAFolder):
         self.assertAlmostEqual(float(re.search(r"(?m)^illuminance +desk +150 lx +[0-9]+ lx +([0-9]+) lx", again.stdout)[1]), float(found), delta=3)
         self.assertRegex(self.run_on([*lines, "rows"], "--polish", "-c", "0").stdout, "Polish: rows stay")
 
+    def test_no_light(self):
+        """Goals that need no luminaire have a page without plans; a sky without light is one line."""
+        room, dark = self.file(ROOM + DESK, "room.rad"), self.file("void plastic black 0 0 5 0 0 0 0 0\nblack sphere far 0 0 4 0 90 0 1\n", "dark.rad")
+        for lines, status, said in (([], 0, ""), (["scene morning", "daylight dark.rad"], 1, rf"goals\.txt:4: there is no light in {re.escape(dark)}, the daylight of the scene morning\n")):
+            goals = self.file("\n".join([SPOT, "grid spot ceiling spacing 2 2.5 drop .2", "illuminance desk 0", *lines]), "goals.txt")
+            run = run_here([built("rsphere-layout"), goals, room, "-o", os.path.join(self.folder.name, "out"), "-d", "128", "-b", "1", "-c", "16"])
+            self.assertEqual(run.returncode, status, run.stderr)
+            self.assertRegex(run.stderr, rf"\A(rsphere-layout: fatal - .*{said})?\Z")
+
     def test_judged_and_not_allowed(self):
         layout = self.file("spot 2 1.4 2 0 0 -1 0 1\n", "mine.txt")
         run = self.run_on(["grid spot ceiling spacing 2 2.5 drop .2", "illuminance desk 100"], "--judge", layout)

@@ -1,6 +1,8 @@
 """Faults in the input, and the numbers of text files, strictly read."""
 import codecs
+import contextlib
 import re
+import warnings
 
 from . import Error
 
@@ -17,6 +19,17 @@ def fault(file, line, text):
     made = Fault("".join(c if c.isprintable() else "?" for c in f"{place}: {text}"))
     made.file, made.line = file, line
     return made
+
+
+@contextlib.contextmanager
+def needs_light(message):
+    """Raises Fault with a message where rsphere warns of a scene without light sources."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message="no light sources")
+        try:
+            yield
+        except UserWarning:
+            raise Fault(message) from None
 
 
 def fault_of(stderr):

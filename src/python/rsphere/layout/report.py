@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..fault import Fault
+from ..fault import needs_light
 from ..page import Page, table
 from ..photometry.position_index import position_index
 from ..progress import PROGRESS
@@ -80,13 +80,9 @@ class Light:
 
     def on(self, points, normals):
         rays = np.hstack([points, np.broadcast_to(normals, points.shape)])
-        with warnings.catch_warnings():
+        with needs_light("the scene has no light sources; a report is on a room with its luminaires, such as lamps.rad of a layout"):
             warnings.filterwarnings("ignore", message="-Sa")  # the errors are in the report
-            warnings.filterwarnings("error", message="no light sources")
-            try:
-                a = self.scene.trace(rays, irradiance_at_origin=True, outputs="ve", accuracy=self.accuracy)
-            except UserWarning:
-                raise Fault("the scene has no light sources; a report is on a room with its luminaires, such as lamps.rad of a layout") from None
+            a = self.scene.trace(rays, irradiance_at_origin=True, outputs="ve", accuracy=self.accuracy)
         return self.lux(a.value), self.lux(a.standard_error)
 
     def free(self, points, directions):

@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 
-from ..fault import fault
+from ..fault import fault, needs_light
 from ..page import Page, table
 from ..progress import PROGRESS
 from .built import write_lamps
@@ -218,7 +218,8 @@ class Steps:
         if not scene.daylight:
             return None
         outdoors = self.rsphere.Scene([*scene.daylight, *self.given.room])
-        direct = self.timed("daylight", lambda: daylight_of(self.transfer, outdoors, DAYLIGHT_DIVISIONS))
+        with needs_light(f"{scene.place[0]}:{scene.place[1]}: there is no light in {', '.join(scene.daylight)}, the daylight of the scene {scene.name}"):
+            direct = self.timed("daylight", lambda: daylight_of(self.transfer, outdoors, DAYLIGHT_DIVISIONS))
         return Light(direct, np.zeros((1, len(direct), 1)), {})
 
     def find_layout(self, folder):
@@ -451,7 +452,7 @@ class Steps:
     def falsecolor(self, s, scene):
         floor = max((p for p in self.polygons if p.vector()[2] > 0), key=lambda p: p.vector()[2], default=None)
         name = self.given.plan or (floor and floor.name)
-        if self.given.no_plan or not name:
+        if self.given.no_plan or not name or not (scene.daylight or self.layout.levels[s].any()):
             return None
         d = self.design
         heights = [surface.points[0, 2] for surface in d.surfaces.values() if surface.normals[0, 2] > 0.9]
