@@ -1,5 +1,6 @@
 """The steps from goals to a page: matrix, search, luminaires as built, check by light traced forward, plans."""
 import contextlib
+import math
 import os
 import statistics
 import tempfile
@@ -33,6 +34,7 @@ POLISH_LIMIT = 20  # times the seconds of the search: no round begins later
 POLISH_REPEATS = 2  # of its search, with what luminaires as built have shown
 ALIKE = 0.005  # the worst goals of two layouts are missed by shares that differ by less: they are equally good
 LESS = 1e-3  # of the watts: polishing saves more, or the layout stays
+NOISY = 0.01  # of a planned uniformity: with a larger standard error, its light has more directions
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
 DARKEST_TOLD = 3  # on the terminal, the most uneven ones; the page has all
@@ -289,6 +291,15 @@ class Steps:
             transfer = Transfer(self.rsphere, files, d, folder, self.given.bounces, fine=True)
             finer = min(max(len(self.candidates) // (2 * len(lamps)), 1), MOST_FINER)
             self.planned_light = light_of(transfer, lamps, transfer.matrix(lamps, finer * self.given.directions))
+            times = (self.noise() / NOISY) ** 2
+            if times > 1 and finer < MOST_FINER:
+                finer = min(math.ceil(times * finer), MOST_FINER)
+                self.planned_light = light_of(transfer, lamps, transfer.matrix(lamps, finer * self.given.directions))
+
+    def noise(self):
+        """The largest standard error of a planned uniformity, relative: that of its darkest cell alone."""
+        planned = [a for s in range(len(self.daylight)) for a in self.planned(s) if a.goal.kind == "uniformity"]
+        return max((a.error / a.value for a in planned if a.value > 0), default=0.0)
 
     def dimmed_text(self):
         """The watts of each scene, if luminaires are dimmed."""
