@@ -1,6 +1,7 @@
 """Faults in the input, and the numbers of text files, strictly read."""
 import codecs
 import contextlib
+import os
 import re
 import warnings
 
@@ -72,6 +73,22 @@ class Numbers:
 
     def numbers(self, count, what, least, most):
         return [self.number(f"{what} {i + 1} of {count}", least, most) for i in range(count)]
+
+
+def write_text(path, text, encoding="utf-8", errors="replace"):
+    try:
+        with open(path, "w", encoding=encoding, errors=errors) as stream:
+            stream.write(text)
+    except OSError as error:
+        raise fault(path, None, f"cannot be written: {error.strerror}") from None
+    return path
+
+
+def make_folder(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise fault(path, None, f"cannot be made: {error.strerror}") from None
 
 
 def lines_of(file, encoding="latin-1", errors="strict"):

@@ -26,6 +26,13 @@ def table(head, rows, words=1):
     return "<table>" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>\n"
 
 
+def aligned(rows, left):
+    """Lines of text, a cell with ! without it. left: the columns whose text is at the left."""
+    rows = [[c.removeprefix("!") for c in row] for row in rows]
+    widths = [max(len(r[i]) for r in rows if i < len(r)) for i in range(max(map(len, rows)))]
+    return ["  ".join(c.ljust(w) if i in left else c.rjust(w) for i, (c, w) in enumerate(zip(r, widths))).rstrip() for r in rows]
+
+
 class Page:
     def __init__(self, title):
         self.title, self.body = title, ""

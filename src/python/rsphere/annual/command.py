@@ -9,7 +9,7 @@ import numpy as np
 import rsphere
 
 from ..command import Options
-from ..fault import Fault, fault
+from ..fault import Fault, fault, make_folder
 from ..layout.room import polygons_named, read_polygons
 from ..progress import PROGRESS
 from . import outside
@@ -290,10 +290,7 @@ def main():
     if not any(row[4] for row in weather.hours):
         raise fault(given.weather, None, "has no hour with diffuse light")
     check_units(given.weather, weather)
-    try:
-        os.makedirs(given.output, exist_ok=True)
-    except OSError as error:
-        raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
+    make_folder(given.output)
     notes, polygons = [], []
     if given.coefficients:
         coefficients, factor = read_coefficients(given.coefficients)

@@ -13,7 +13,7 @@ import numpy as np
 
 import rsphere
 
-from ..fault import Fault
+from ..fault import Fault, write_text
 from ..progress import PROGRESS
 from .passes import FACTOR, SKY, SUN_SOLID_ANGLE, LoweredPass, Pass, product
 from .shades import LOWERED, UP, states_by_rule
@@ -79,9 +79,7 @@ def check_sky(files, polygons, folder):
     low, high = corners.min(axis=0), corners.max(axis=0)
     away = 0.01 * np.linalg.norm(high - low)
     above = [[*(low + high)[:2] / 2, high[2] + away, 0, 0, 1]]
-    path = os.path.join(folder, "sky.rad")
-    with open(path, "w", encoding="ascii") as stream:
-        stream.write(SKY)
+    path = write_text(os.path.join(folder, "sky.rad"), SKY)
     seen = rsphere.Scene([path, *files]).contributions(above, of=["rsphere_sky"], irradiance_at_origin=True, coefficients=True, ambient_bounces=1)
     rays = [[*(low + high)[:2] / 2, z, dx, dy, dz] for z, dz in ((high[2] + away, 1), (low[2] - away, -1)) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
     with warnings.catch_warnings():

@@ -7,6 +7,7 @@ import numpy as np
 
 import rsphere
 
+from ..fault import write_text
 from ..progress import PROGRESS
 from .alpha_opic import BANDS, OBSERVERS, by_observers
 
@@ -52,9 +53,7 @@ class Scenes:
 
     def scene(self, kind, text):
         path = os.path.join(self.folder, f"{self.name}_{kind}.rad")
-        with open(path, "w", encoding="latin-1") as stream:
-            stream.write(text)
-        return rsphere.Scene([path, *self.files])
+        return rsphere.Scene([write_text(path, text, "latin-1"), *self.files])
 
     def coefficients(self, scene, rays, of, bins=None, **options):
         """For radiance 1: (rays, modifiers or bins, red green blue, or bands with cs=)."""

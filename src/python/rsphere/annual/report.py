@@ -4,8 +4,8 @@ import os
 
 import numpy as np
 
-from ..fault import fault
-from ..page import Page, table
+from ..fault import write_text
+from ..page import Page, aligned, table
 from .sensors import draw, draw_points
 from .verdicts import quantities_of
 
@@ -59,27 +59,21 @@ class Report:
                 yield [name, f"{mean}{'' if unit in ('%', '') else ' '}{unit}", error if self.known else "", whose]
 
     def text(self):
-        rows = {s: [[c.removeprefix("!") for c in row] for row in self.rows(s)] for s in self.sources}
-        everything = [HEAD, *(row for s in self.sources for row in rows[s])]
-        widths = [max(len(row[i]) for row in everything) for i in range(len(HEAD))]
-        line = lambda row: "  ".join(c.ljust(w) if i in (0, 1, 4) else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()  # noqa: E731
+        rows = {s: list(self.rows(s)) for s in self.sources}
+        head, *table_lines = aligned([HEAD, *(row for s in self.sources for row in rows[s])], (0, 1, 4))
         lines = [*self.notes, ""]
         for name, mean, error, whose in self.means():
             lines.append(f"{name}: {mean}{' +- ' + error if error else ''}, mean of the {whose}")
-        lines += ["", line(HEAD)]
+        lines += ["", head]
         for s in self.sources:
-            lines += [f"{s}:", *(line(row) for row in rows[s])]
+            lines += [f"{s}:", *table_lines[: len(rows[s])]]
+            del table_lines[: len(rows[s])]
         if self.windows:
             lines += ["", *("\t".join(row) for row in self.windows)]
         return "\n".join(lines) + "\n"
 
     def write(self, folder, name, text):
-        path = os.path.join(folder, name)
-        try:
-            with open(path, "w", encoding="utf-8", errors="replace") as stream:
-                stream.write(text)
-        except OSError as error:
-            raise fault(path, None, f"cannot be written: {error.strerror}") from None
+        write_text(os.path.join(folder, name), text)
 
     def write_places(self, folder, file, places, quantities):
         """A line for each sensor or eye: its place, what it has and the standard errors."""

@@ -6,7 +6,7 @@ from html import escape
 import numpy as np
 
 from ..command import program
-from ..fault import fault, fault_of, lines_of, number
+from ..fault import fault, fault_of, lines_of, number, write_text
 from ..layout.room import polygons_named
 
 WORDS = ("x", "y", "z", "the direction along x", "the direction along y", "the direction along z")
@@ -75,8 +75,7 @@ def sensors_on(given, polygons):
 
 def draw(given, name, values, unit, title, path):
     """A plan of values of the sensors on a work plane, as SVG."""
-    with open(path + ".txt", "w", encoding="ascii") as stream:
-        stream.writelines(f"{v:.6g}\n" for v in values)
+    write_text(path + ".txt", "".join(f"{v:.6g}\n" for v in values))
     levels = ["-l", "10,20,30,40,50,60,70,80,90"] if unit == "%" else []
     command = [*plan_command(given, name), *levels, "-q", unit, "-i", path + ".txt", "-o", path, "-t", title, *given.scene]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -113,9 +112,5 @@ def draw_points(sensors, polygons, values, unit, title, path):
         lines.append(f'<text x="{place[0]:.1f}" y="{place[1]:.1f}" font-size="{0.35 * spacing * scale:.1f}" text-anchor="middle" dominant-baseline="central" '
                      f'fill="{"#000" if part > 2.5 else "#fff"}">{value:.0f}</text>')
     svg = "\n".join(lines) + "\n</svg>\n"
-    try:
-        with open(path, "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(svg)
-    except OSError as error:
-        raise fault(path, None, f"cannot be written: {error.strerror}") from None
+    write_text(path, svg)
     return svg

@@ -11,7 +11,7 @@ import numpy as np
 import rsphere
 
 from ..command import program
-from ..fault import NUMBER, Fault, fault, lines_of, number
+from ..fault import NUMBER, Fault, fault, lines_of, number, write_text
 from .outside import panes_of
 from .verdicts import SUNNY
 
@@ -175,10 +175,9 @@ def check_shapes(groups, files):
 def lightless(windows, files, inside, folder):
     """Whether no light passes through polygons: by rays across each to a light on the side of the places inside."""
     covered = [cover(p, inside, set_off(p)) for p in windows]
-    path, names = os.path.join(folder, "lit.rad"), [f"rsphere_lit{i}" for i in range(len(windows))]
-    with open(path, "w", encoding="ascii") as stream:
-        stream.writelines(f"void glow {name} 0 0 4 1 1 1 0\n" + "".join(polygon_text(name, name, c) for c in (corners, corners[::-1]))
-                          for name, (corners, _) in zip(names, covered))
+    names = [f"rsphere_lit{i}" for i in range(len(windows))]
+    path = write_text(os.path.join(folder, "lit.rad"), "".join(
+        f"void glow {name} 0 0 4 1 1 1 0\n" + "".join(polygon_text(name, name, c) for c in (corners, corners[::-1])) for name, (corners, _) in zip(names, covered)))
     rays = [[*(p.corners.mean(axis=0) * (1 - t) + corner * t - way), *way / np.linalg.norm(way)]
             for p, (_, way) in zip(windows, covered) for corner in p.corners for t in ACROSS]
     with warnings.catch_warnings():

@@ -3,6 +3,7 @@ import os
 
 import numpy as np
 
+from ..fault import write_text
 from ..photometry.lamp_rad import pattern_text, surfaces_text, turning_words, word, write_data
 
 
@@ -26,10 +27,7 @@ def write_lamps(design, candidates, chosen, levels, folder, name):
         text += f"# {number + 1}: {luminaire.name} at {level:.0%}\n"
         text += surfaces_text(luminaire.photometry, f"{word(luminaire.name)}.{number + 1}", materials[key], c.matrix(),
                               c.position, design.units)
-    path = os.path.join(folder, f"{name}.rad")
-    with open(path, "w", encoding="ascii") as stream:
-        stream.write(text)
-    return path
+    return write_text(os.path.join(folder, f"{name}.rad"), text)
 
 
 def outline(design, candidate):

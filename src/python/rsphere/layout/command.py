@@ -6,7 +6,7 @@ import time
 import rsphere
 
 from ..command import Options
-from ..fault import Fault, fault
+from ..fault import Fault, make_folder
 from .limits import ACTIVITIES
 from .report import Report
 from .steps import Steps
@@ -64,10 +64,7 @@ def arguments():
 
 def main():
     given = arguments()
-    try:
-        os.makedirs(given.output, exist_ok=True)
-    except OSError as error:
-        raise fault(given.output, None, f"cannot be made: {error.strerror}") from None
+    make_folder(given.output)
     steps = (Report if given.report else Steps)(rsphere, given)
     begin = time.monotonic()
     steps.run()

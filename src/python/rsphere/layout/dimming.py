@@ -4,7 +4,7 @@ import os
 import re
 import subprocess
 
-from ..fault import Fault, fault
+from ..fault import fault, write_text
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 SOURCE = re.compile(rf"(?<!\S)(\S+\s+(?:light|spotlight|glow|illum)\s+)(\S+)(\s+(?:0|1\s+\S+)\s+0\s+[347]\s+)({NUMBER})\s+({NUMBER})\s+({NUMBER})(?!\S)")
@@ -50,9 +50,4 @@ def dimmed(files, lamps, folder):
         if i not in matched:
             known = sorted({found[2] for found in SOURCE.finditer(text)})[:6]
             raise fault(*l.place, f'no light source has the modifier "{l.pattern[:40]}"; there are {", ".join(known) or "none"}')
-    try:
-        with open(path, "w", encoding="utf-8", errors="surrogateescape") as stream:
-            stream.write(text)
-    except OSError as error:
-        raise Fault(f"{path}: cannot be written: {error.strerror}") from None
-    return [path]
+    return [write_text(path, text, errors="surrogateescape")]

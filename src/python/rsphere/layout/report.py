@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..fault import needs_light
-from ..page import Page, table
+from ..fault import needs_light, write_text
+from ..page import Page, aligned, table
 from ..photometry.position_index import position_index
 from ..progress import PROGRESS
 from .dimming import dimmed
@@ -316,14 +316,10 @@ class Report:
 
     def tell(self):
         PROGRESS.clear()
-        rows = [[c.removeprefix("!") for c in cells] for cells in (HEADS, *(row.cells() for row in self.rows))]
-        widths = [max(len(r[i]) for r in rows) for i in range(len(HEADS))]
-        right = {2, 3, 4}
-        text = "".join("  ".join(c.rjust(w) if i in right else c.ljust(w) for i, (c, w) in enumerate(zip(r, widths))).rstrip() + "\n" for r in rows)
-        text += "".join(f"{line}\n" for line in (self.verdict(), self.settings(), *self.notes))
+        lines = aligned([HEADS, *(row.cells() for row in self.rows)], (0, 1, 5, 6))
+        text = "".join(f"{line}\n" for line in (*lines, self.verdict(), self.settings(), *self.notes))
         print(text, end="")
-        with open(os.path.join(self.given.output, "report.txt"), "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(text)
+        write_text(os.path.join(self.given.output, "report.txt"), text)
 
     def page(self, files):
         page = Page(self.title)
@@ -336,8 +332,7 @@ class Report:
             page.figure(plan)
         for line in (self.settings(), *self.notes):
             page.note(line)
-        with open(os.path.join(self.given.output, "report.html"), "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(page.html())
+        write_text(os.path.join(self.given.output, "report.html"), page.html())
 
     def plan(self, files):
         """A falsecolor plan at the height of the tasks."""

@@ -8,8 +8,8 @@ import time
 
 import numpy as np
 
-from ..fault import fault, needs_light
-from ..page import Page, table
+from ..fault import fault, needs_light, write_text
+from ..page import Page, aligned, table
 from ..progress import PROGRESS
 from .built import write_lamps
 from .design import read_design
@@ -420,11 +420,7 @@ class Steps:
         return head if self.design.scenes else head[1:]
 
     def tell_table(self):
-        rows = [[c.removeprefix("!") for c in row] for row in [self.head(), *self.table_rows()]]
-        widths = [max(len(r[i]) for r in rows if i < len(r)) for i in range(max(map(len, rows)))]
-        words = 3 if self.design.scenes else 2
-        lines = ["  ".join(c.ljust(w) if i < words else c.rjust(w) for i, (c, w) in enumerate(zip(r, widths))).rstrip() for r in rows]
-        text = "\n".join(lines) + "\n"
+        text = "\n".join(aligned([self.head(), *self.table_rows()], range(3 if self.design.scenes else 2))) + "\n"
         print(text, end="")
         print(self.verdict())
         self.write("table.txt", text + self.verdict() + "\n")
@@ -522,8 +518,7 @@ class Steps:
         self.write("page.html", page.html())
 
     def write(self, name, text):
-        with open(os.path.join(self.given.output, name), "w", encoding="utf-8", errors="replace") as stream:
-            stream.write(text)
+        write_text(os.path.join(self.given.output, name), text)
 
     def layout_title(self, scene, levels):
         """The watts are those of the luminaires, and as they are dimmed where this is less."""

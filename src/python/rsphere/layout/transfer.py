@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..fault import write_text
 from ..progress import PROGRESS
 from .room import LIFT, goal_text, mirrors_among
 from .surface_parts import GOLDEN as GOLDEN_STEP
@@ -250,10 +251,7 @@ class Transfer:
             self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points, False))
 
     def scene_with(self, text, name):
-        path = f"{self.folder}/{name}.rad"
-        with open(path, "w", encoding="utf-8", errors="surrogateescape") as stream:
-            stream.write(text)
-        return self.rsphere.Scene([*self.files, path])
+        return self.rsphere.Scene([*self.files, write_text(f"{self.folder}/{name}.rad", text, errors="surrogateescape")])
 
     def zone_intensities(self, candidates, zones, most):
         """For each candidate the mean intensities (places, zones) in each zone (cd) of its light at places(), at full power."""

@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 
+from ..fault import write_text
 from .intensities import TINY
 
 SIDES = 16  # of a prism that stands for a cylinder: its width is within 1.3% of the cylinder's
@@ -161,8 +162,7 @@ def surfaces_text(photometry, name, modifier, turn=None, origin=(0, 0, 0), units
 
 def write_data(photometry, folder, name):
     """Writes the data file and lamp.cal into a folder. Returns the name of the data file."""
-    with open(os.path.join(folder, f"{name}.dat"), "w", encoding="ascii") as stream:
-        stream.write(data_text(photometry))
+    write_text(os.path.join(folder, f"{name}.dat"), data_text(photometry))
     target = os.path.join(folder, "lamp.cal")
     if not os.path.exists(target):
         shutil.copy(os.path.join(os.path.dirname(os.path.abspath(__file__)), "lamp.cal"), target)
