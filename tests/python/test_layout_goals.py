@@ -173,18 +173,21 @@ class Goals(unittest.TestCase):
                 self.assertRegex(run.stderr, re.escape("layout: fatal - " + (f"{file}:{line}: " if line else "")) + ".*" + words)
 
     def test_faults_of_options(self):
-        for options, words in ((("-p", "flor"), 'polygon or modifier "flor"; it has floor'), (("-b", "nan"), "invalid int value"), (("-d", "1e9"), "invalid int value"),
+        for options, words in ((("-p", "flor"), "-p is that of plans, without --no-plan"), (("--accuracy", ".1"), "--accuracy needs --report"),
+                               (("--judge", "x", "-s", "9"), "-s is that of a search, instead of --judge"), (("--report", "-g", "0"), "-g is that of a layout, not of --report"), (("-b", "nan"), "invalid int value"), (("-d", "1e9"), "invalid int value"),
                                (("-s", "0"), "--seconds must be from"), (("-g", "2"), "--gap must be from"), (("-c", "-5"), "--check must be from"),
                                (("--polish", "--judge", "x"), "exclude each other"), (("--judge",), "expected one argument"), (("--judge", "none"), "none: cannot be read"),
-                               (("--accuracy", "nan"), "--accuracy must be from"), (("-o", "/proc/none"), "/proc/none: cannot be made")):
+                               (("--accuracy", "nan"), "--accuracy must be from"), (("-o", "/proc/none"), "/proc/none: cannot be made")):  # it is given twice
             with self.subTest(options=options):
                 run, _ = self.run_on(GOOD, options, here=True)
                 self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
-                self.assertRegex(run.stderr, r"\Arsphere-layout: fatal - [^\n]*" + words + r"[^\n]*\n\Z")
+                self.assertRegex(run.stderr, r"\A(rsphere-layout: warning - -o is given twice; [^\n]*\n)?rsphere-layout: fatal - [^\n]*" + words + r"[^\n]*\n\Z")
 
     def test_faults_of_the_room(self):
         """They had the name of another program in front."""
         goals = os.path.join(LAYOUT, "cases/office.txt")
+        run = run_here([built("rsphere-layout"), "-o", tempfile.gettempdir(), "-p", "flor", goals, goals.replace(".txt", ".rad")])
+        self.assertRegex(run.stderr, r'\Arsphere-layout: fatal - --plan: [^\n]*polygon or modifier "flor"; it has floor[^\n]*\n\Z')
         for text, words in (("void plastic", r"room\.rad:1: text ends"), ("!false\n", "false"), (None, r"room\.rad: cannot open scene file"),
                             ("!cat ROOM\n", "room.rad"), ("", 'no polygon or modifier "ceiling"; it has no polygons'), ("\0\1", r"room\.rad")):
             with self.subTest(text=text), tempfile.TemporaryDirectory() as folder:
