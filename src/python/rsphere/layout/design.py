@@ -128,6 +128,18 @@ class Words:
     def more_number(self):
         return self.more() and self.words[self.next][:1] in set("+-.0123456789")
 
+    def options(self, ranges, flags=(), twice=()):
+        """The options that follow, until the line ends: numbers within ranges, of which some may be two, and flags."""
+        found, names = {}, [*ranges, *flags]
+        while self.more():
+            key = self.text(" or ".join(names) if len(names) == 2 else "an option")
+            if key not in names:
+                raise self.fault(f'"{key[:40]}" is ' + (f"neither {names[0]} nor {names[1]}" if len(names) == 2 else f"none of {', '.join(names)}"))
+            found[key] = True if key in flags else self.number(f"the {key}", *ranges[key])
+            if key in twice and self.more_number():
+                found[key] = [found[key], self.number(f"the {key}", *ranges[key])]
+        return found
+
     def end(self):
         if self.more():
             raise self.fault(f'"{self.words[self.next]}" is not expected here')
@@ -212,15 +224,8 @@ class Reader(Statements):
             photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies, .ldt, .gldf or .xml")))
         except Fault as text:
             raise w.fault(str(text)) from None
-        watts, factor = photometry.watts, 1.0
-        while w.more():
-            key = w.text("watts or factor")
-            if key == "watts":
-                watts = w.number("the watts", 0.001, 1e6)
-            elif key == "factor":
-                factor = w.number("the factor on the light", 1e-6, 1e6)
-            else:
-                raise w.fault(f'"{key[:40]}" is neither watts nor factor')
+        found = w.options({"watts": (0.001, 1e6), "factor": (1e-6, 1e6)})
+        watts, factor = found.get("watts", photometry.watts), found.get("factor", 1.0)
         if photometry.radiant:
             raise w.fault(f"{photometry.file} is radiant (W/sr); goals are of light")
         if any(name == l.name for l in self.design.luminaires):
@@ -310,17 +315,8 @@ class Reader(Statements):
         names = self.target(w)
         value = w.number("the illuminance (lx)", 0, 1e7)
         options = {"uniformity": (0, 1), "most": (0, 1e7), "spacing": (1e-9, 1e9), "margin": (0, 1e9)}
-        found, back = {}, False
-        while w.more():
-            key = w.text("an option")
-            if key == "back":
-                back = True
-            elif key in options:
-                found[key] = w.number(f"the {key}", *options[key])
-                if key == "spacing" and w.more_number():
-                    found[key] = [found[key], w.number("the spacing", *options[key])]
-            else:
-                raise w.fault(f'"{key[:40]}" is none of {", ".join(options)}, back')
+        found = w.options(options, ["back"], ["spacing"])
+        back = found.pop("back", False)
         if found.get("most", value) < value:
             raise w.fault("most is below the illuminance that is wanted")
         for name in names:

@@ -68,13 +68,8 @@ class TaskReader(Statements):
         self.found.maintenance = w.number("the maintenance factor", 0.01, 1)
 
     def read_luminaire(self, w):
-        lamps = Lamps(w.text("the modifier of the light, or a pattern"), 0.0, 1.0, w.place)
-        while w.more():
-            key = w.text("watts or factor")
-            if key not in ("watts", "factor"):
-                raise w.fault(f'"{key[:40]}" is neither watts nor factor')
-            setattr(lamps, key, w.number(f"the {key}", 0, 1e9 if key == "watts" else 1))
-        self.found.lamps.append(lamps)
+        pattern, found = w.text("the modifier of the light, or a pattern"), w.options({"watts": (0, 1e9), "factor": (0, 1)})
+        self.found.lamps.append(Lamps(pattern, found.get("watts", 0.0), found.get("factor", 1.0), w.place))
 
     def names(self, w):
         name = w.text("the name of a surface")
@@ -84,15 +79,8 @@ class TaskReader(Statements):
     def read_task(self, w):
         options = {"height": (-1e9, 1e9), "margin": (0, 1e9), "spacing": (1e-9, 1e9), "surrounding": (0, 1e9), **LIMITS}
         names, activity = self.names(w), self.activity(w, {"back", *options})
-        found, back = {}, False
-        while w.more():
-            key = w.text("an option")
-            if key == "back":
-                back = True
-            elif key in options:
-                found[key] = w.number(f"the {key}", *options[key])
-            else:
-                raise w.fault(f'"{key[:40]}" is none of {", ".join(options)}, back')
+        found = w.options(options, ["back"])
+        back = found.pop("back", False)
         activity = activity.changed({key: value for key, value in found.items() if key in LIMITS})
         around = found.get("surrounding", SURROUNDING_WIDTH * self.found.units)
         for name in names:
@@ -139,14 +127,9 @@ class TaskReader(Statements):
         self.found.eyes.append(Eye(name, self.near(w, w.vector("the place"), f'"{name[:40]}"')))
 
     def read_eyes(self, w):
-        while w.more():
-            key = w.text("height or spacing")
-            if key == "height":
-                self.found.height = w.number("the height of eyes", 1e-9, 1e9) / self.found.units
-            elif key == "spacing":
-                self.found.spacing = w.number("the spacing of eyes", 1e-9, 1e9)
-            else:
-                raise w.fault(f'"{key[:40]}" is neither height nor spacing')
+        found = w.options(dict.fromkeys(("height", "spacing"), (1e-9, 1e9)))
+        self.found.height = found["height"] / self.found.units if "height" in found else self.found.height
+        self.found.spacing = found.get("spacing", self.found.spacing)
 
 
 def read_tasks(file, polygons):
