@@ -73,7 +73,7 @@ FAULTS = (
     (1, "\n".join(f"place panel {1 + 1e-4 * i:g} 1 2" for i in range(20001)), None, "20001 candidates are more than 20000"),
     (2, f"illuminance {'*a' * 1000}b 5", 3, "no polygon or modifier"),
     (0, "luminaire panel panel.ies watts 1e9", 1, "the watts must be from"),
-    (0, "luminaire panel panel.ies factor 0", 1, "factor on the light must be from"),
+    (0, "luminaire panel panel.ies factor 0", 1, "factor must be from"),
     (0, "luminaire panel panel.ies\nluminaire panel panel.ies", 2, 'two luminaires "panel"'),
     (0, "luminaire panel /", 1, "cannot be read"),
     (0, "maintenance 1.1\n" + GOOD[0], 1, "maintenance factor must be from"),
