@@ -40,7 +40,7 @@ class Reports(InAFolder):
         goals, scene = self.file("\n".join(lines), "tasks.txt"), self.file(room, "room.rad")
         given = dict(goals=goals, room=[scene], output=self.folder.name, title="", bounces=1, accuracy=0.05, no_plan=True)
         report = Report(rsphere, argparse.Namespace(**{**given, **options}))
-        few = unittest.mock.patch.multiple("rsphere.layout.report", COARSE=64, FINE=128, AROUND=128)
+        few = unittest.mock.patch.multiple("rsphere.layout.report", COARSE=64, FINE=128, LAST=128, AROUND=128)
         with open(os.devnull, "w", encoding="ascii") as silence, unittest.mock.patch("sys.stdout", silence), few, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # rooms of tests have black backgrounds
             report.run()
@@ -85,6 +85,17 @@ class Reports(InAFolder):
         self.assertAlmostEqual(row.value, found.max() + 8 * np.log10(0.5), delta=0.2)
         self.assertGreater(found.max() - np.sort(found)[-9], 1, "of another place")
         self.assertRegex(row.where, r"at [-0-9. ]+ looking to [-0-9. ]+; [0-9]+% by two\.1 \(two\)")
+
+    def test_worst_glare_beside_a_mirror(self):
+        """Its light is in the background, and an image in it is no luminaire, as by rsphere -Su."""
+        mirror = "void mirror silver 0 0 3 .9 .9 .9\nsilver polygon mirror 0 0 12 7.99 .5 .2 7.99 .5 2.8 7.99 4.5 2.8 7.99 4.5 .2\n"
+        room = ROOM + lamp("one", (6, 2.5, 2.2), 400) + mirror
+        report = self.report(["task floor 34.2", "eyes spacing 20", "eye me 7 2.5 1.2"], room)
+        places = np.array([p for _, p in report.places])
+        found = rsphere.Scene(os.path.join(self.folder.name, "room.rad")).glare(
+            np.repeat(places, 8, axis=0), np.tile(GAZES, (len(places), 1)), directions=128, Sub=BEYOND).ugr
+        row = self.row(report, "glare", "worst UGR")
+        self.assertAlmostEqual(row.value, found.max(), delta=0.3)
 
     def test_areas(self):
         """Around a desk: within half a metre, in the room, not on another desk, not under a shelf; a board's is on its wall."""
