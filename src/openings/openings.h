@@ -6,6 +6,7 @@
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,6 +24,19 @@ struct Opening : Rectangle {
   bool isHole = false;
   double radiance = 0;  // brightness, mean of the light that enters (W/sr/m2)
   double power = 0;     // of the light that enters: radiance times `filled`
+  // The hole by which light leaves a shaft behind the panes, with the same normal. Beyond it, the panes are
+  // seen only through it, and so are the walls of the shaft, which they light.
+  std::optional<Rectangle> mouth = std::nullopt;
+
+  // What a point sees of the opening: the mouth if the point lies beyond it.
+  const Rectangle& seenFrom(const V3d& point) const {
+    return mouth && mouth->above(point) > 0 ? *mouth : *this;
+  }
+  // The area of the parts that send light to the point (square world units).
+  double filledFrom(const V3d& point) const {
+    const Rectangle& seen = seenFrom(point);
+    return &seen == this ? filled : seen.area();
+  }
 };
 
 // The projected area (square world units) of openings for light that enters in this direction (unit).
@@ -47,12 +61,13 @@ class AimedAtOpenings {
   };
   static constexpr AimedAt kKind = AimedAt::openings;
   V3d sample(const Aim& aim, double u1, double u2, double u3) const {
-    return (places_[aim.number[aim.chosen(u1)]].at(u2, u3) - aim.point).normalized();
+    return (places_[aim.number[aim.chosen(u1)]].seenFrom(aim.point).at(u2, u3) - aim.point).normalized();
   }
   double density(const Aim& aim, const V3d& direction) const {
     double sum = 0;
     for (size_t i = 0; i < aim.count; ++i)
-      sum += (aim.upTo[i] - aim.before(i)) * densityTo(places_[aim.number[i]], aim.point, direction);
+      sum += (aim.upTo[i] - aim.before(i)) *
+             densityTo(places_[aim.number[i]].seenFrom(aim.point), aim.point, direction);
     return sum / aim.before(aim.count);
   }
 
@@ -66,8 +81,8 @@ class AimedAtOpenings {
     aim.seen = 0;
     for (uint32_t i = 0; i < places; ++i) {
       const Place& place = places_[i];
-      const double factor = formFactorTo(place, place.filled, from.point, from.normal,
-                                         [&](const V3d& at) { return counts(place, at); });
+      const double factor = formFactorTo(place.seenFrom(from.point), place.filledFrom(from.point), from.point,
+                                         from.normal, [&](const V3d& at) { return counts(place, at); });
       if (!(factor > 0)) continue;
       aim.seen += factor;
       aim.add(i, factor * kPi * place.radiance);

@@ -69,6 +69,11 @@ struct Openings {
   // the distance between their middles is below kSameHole times the shortest side of both. This finds the two
   // faces of a wall, which are nearer to each other than a door is wide.
   static constexpr double kParallel = .99, kSameHole = .5;
+  // A parallel hole is the mouth of a shaft behind an opening if it lies at least kLeastDepth times the
+  // shortest side of the opening away, and at most kMostDepth times the longest; if their middles are no
+  // farther apart sideways than kSameHole allows; and if the ratio of their areas is at most kWidening.
+  // Through less deep reveals, most directions to the panes reach them. Not varied.
+  static constexpr double kLeastDepth = .2, kMostDepth = 3, kWidening = 3;
   // Rays are aimed at the image of an opening in a mirror that reflects at least this fraction of the light
   // of all openings. Derived: if one in a thousand unaimed rays finds the light of the mirror, its error with
   // 8192 rays is a third, and thus .3% of all light.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "base/even_sequence.h"
@@ -124,19 +125,35 @@ std::vector<Opening> panesOf(const PreparedScene& prepared, double leastArea) {
   return panes;
 }
 
-// Holes in walls that no pane closes. None without distant sources, because there is no sky to see.
-std::vector<Opening> doorsOf(const PreparedScene& prepared, double leastArea) {
-  std::vector<Opening> doors;
-  if (prepared.lights().distant().empty()) return doors;
+// Holes in walls, with and without panes. None without distant sources, because there is no sky to see.
+std::vector<Rectangle> holesInWalls(const PreparedScene& prepared, double leastArea) {
+  if (prepared.lights().distant().empty()) return {};
   const Scene& scene = prepared.scene();
-  const auto isWall = [&](const Surface& surface) {
+  return holesOf(scene, prepared.tracer().bounds(), leastArea, [&](const Surface& surface) {
     const Material* material = scene.materialOf(surface);
     return material && !enclosesVolume(*material) && !isLightSource(*material) &&
            !lightPasses(prepared, surface);
-  };
-  for (const Rectangle& hole : holesOf(scene, prepared.tracer().bounds(), leastArea, isWall))
-    if (!hasPane(prepared, hole)) doors.push_back({hole, hole.area(), true});
-  return doors;
+  });
+}
+
+// The mouth of the shaft behind an opening: the farthest hole that may be one.
+std::optional<Rectangle> mouthOf(const Opening& o, std::span<const Rectangle> holes) {
+  using Limits = tuning::Openings;
+  std::optional<Rectangle> mouth;
+  double deepest = Limits::kLeastDepth * std::min(o.width, o.height);
+  for (const Rectangle& hole : holes) {
+    const V3d way = hole.at(.5, .5) - o.at(.5, .5);
+    const double depth = way.dot(o.normal), aside = (way - depth * o.normal).length();
+    const double shortest = std::min({o.width, o.height, hole.width, hole.height});
+    if (std::abs(o.normal.dot(hole.normal)) < Limits::kParallel || depth < deepest ||
+        depth > Limits::kMostDepth * std::max(o.width, o.height) || aside > Limits::kSameHole * shortest ||
+        std::max(hole.area() / o.area(), o.area() / hole.area()) > Limits::kWidening)
+      continue;
+    deepest = depth;
+    mouth = hole;
+    mouth->normal = o.normal;
+  }
+  return mouth;
 }
 
 // Whether a hole differs from all openings found so far. A thick wall has two faces, each with a hole for one
@@ -188,11 +205,12 @@ double wallOf(const V3d& size) {
   return most * std::max(least, 1e-3 * most);
 }
 
-// Panes and holes that may be openings, the largest first. face: see wallOf().
-std::vector<Opening> candidates(const PreparedScene& prepared, double face) {
-  std::vector<Opening> asked = panesOf(prepared, tuning::Openings::kLeastArea * face);
-  const std::vector<Opening> doors = doorsOf(prepared, tuning::Openings::kLeastArea * face);
-  asked.insert(asked.end(), doors.begin(), doors.end());
+// Panes, and holes that no pane closes, that may be openings: the largest first.
+std::vector<Opening> candidates(const PreparedScene& prepared, double leastArea,
+                                std::span<const Rectangle> holes) {
+  std::vector<Opening> asked = panesOf(prepared, leastArea);
+  for (const Rectangle& hole : holes)
+    if (!hasPane(prepared, hole)) asked.push_back({hole, hole.area(), true});
   keepLargest(asked, tuning::Caps::kAsked, [](const Opening& o) { return o.area(); });
   return asked;
 }
@@ -203,7 +221,9 @@ Openings findOpenings(const PreparedScene& prepared) {
   const Box3d& bounds = prepared.tracer().bounds();
   if (bounds.isEmpty()) return {{}, 0, 0};
   const V3d size = bounds.size();
-  std::vector<Opening> asked = candidates(prepared, wallOf(size)), found;
+  const double leastArea = tuning::Openings::kLeastArea * wallOf(size);
+  const std::vector<Rectangle> holes = holesInWalls(prepared, leastArea);
+  std::vector<Opening> asked = candidates(prepared, leastArea, holes), found;
   if (asked.empty()) return {{}, 0, 0};
   Probe probe(prepared, std::max(1e-6 * std::max({size.x, size.y, size.z}), 2 * prepared.scene().samePlace));
   double all = 0, inside = 0, depth = 0;
@@ -228,7 +248,10 @@ Openings findOpenings(const PreparedScene& prepared) {
     depth /= all;
   }
   merge(found);
-  for (Opening& opening : found) opening.radiance = opening.power / opening.filled;
+  for (Opening& opening : found) {
+    opening.radiance = opening.power / opening.filled;
+    opening.mouth = mouthOf(opening, holes);
+  }
   keepLargest(found, tuning::Caps::kAimed, [](const Opening& o) { return o.power; });
   return {std::move(found), inside, depth};
 }

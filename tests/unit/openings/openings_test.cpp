@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/unit/transport/transport_fixture.h"
@@ -251,6 +252,70 @@ TEST(Openings, ShowTheirAreaToLightOnItsWayIn) {
   expectMean(onWindow, 2 * in.y / areaTowards(both.all(), in), 1.05);
   expectMean(x, 2);
   expectMean(z, 1.5);
+}
+
+// A room of 8 x 6 x 4 m with a frosted skylight at the top of a shaft of half a metre.
+constexpr const char* kRoomWithShaft = R"(
+void plastic gray 0 0 5 .5 .5 .5 0 0
+void plastic white 0 0 5 .85 .85 .85 0 0
+void trans frosted 0 0 7 .85 .85 .85 0 0 .6 0
+gray polygon floor 0 0 12 0 0 0 8 0 0 8 6 0 0 6 0
+gray polygon west 0 0 12 0 0 0 0 6 0 0 6 4 0 0 4
+gray polygon east 0 0 12 8 0 0 8 0 4 8 6 4 8 6 0
+gray polygon north 0 0 12 0 6 0 8 6 0 8 6 4 0 6 4
+gray polygon south 0 0 12 0 0 0 0 0 4 8 0 4 8 0 0
+white polygon ceiling 0 0 30
+  0 0 4 0 6 4 8 6 4 8 0 4 0 0 4 2.8 2.3 4 5.2 2.3 4 5.2 3.7 4 2.8 3.7 4 2.8 2.3 4
+white polygon shaft1 0 0 12 2.8 2.3 4 2.8 2.3 4.5 5.2 2.3 4.5 5.2 2.3 4
+white polygon shaft2 0 0 12 2.8 3.7 4 5.2 3.7 4 5.2 3.7 4.5 2.8 3.7 4.5
+white polygon shaft3 0 0 12 2.8 2.3 4 2.8 3.7 4 2.8 3.7 4.5 2.8 2.3 4.5
+white polygon shaft4 0 0 12 5.2 2.3 4 5.2 2.3 4.5 5.2 3.7 4.5 5.2 3.7 4
+frosted polygon skylight 0 0 12 2.8 2.3 4.5 2.8 3.7 4.5 5.2 3.7 4.5 5.2 2.3 4.5
+)";
+
+TEST(Openings, AreSeenThroughTheMouthOfTheirShaft) {
+  const Openings skylight = openingsOf(kSky + kRoomWithShaft);
+  ASSERT_EQ(skylight.all().size(), 1);
+  Random random(1);
+  for (const auto& [point, normal, height] :
+       {std::tuple(V3d(0, 3, 3.5), V3d(1, 0, 0), 4.), std::tuple(V3d(5, 3, 0), V3d(0, 0, 1), 4.),
+        std::tuple(V3d(2.8, 3, 4.2), V3d(1, 0, 0), 4.5)}) {
+    Openings::Aim aim;
+    skylight.aim({point, normal}, aim);
+    ASSERT_GT(aim.mean, 0) << point;
+    Sample whole;
+    for (int i = 0; i < 400000; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d direction = skylight.sample(aim, u1, u2, u3);
+      const V3d at = point + direction * ((height - point.z) / direction.z);
+      ASSERT_TRUE(at.x > 2.799 && at.x < 5.201 && at.y > 2.299 && at.y < 3.701) << at;
+      const double z = 2 * u1 - 1, angle = 2 * std::numbers::pi * u2, r = std::sqrt(1 - z * z);
+      whole.add(4 * std::numbers::pi *
+                skylight.density(aim, V3d(r * std::cos(angle), r * std::sin(angle), z)));
+    }
+    expectMean(whole, 1, 1.3);
+  }
+}
+
+// A high place on a wall sees the walls of the shaft and nothing of the pane.
+TEST(Openings, WithMouthsLeaveTheMeanAsItIs) {
+  Traced room(kSky + kRoomWithShaft, unbiased(3));
+  const Openings skylight = findOpenings(room.prepared());
+  ASSERT_FALSE(skylight.empty());
+  std::vector<Opening> panes(skylight.all().begin(), skylight.all().end());
+  for (Opening& pane : panes) pane.mouth.reset();
+  const Openings alone(panes, skylight.inside(), skylight.depth());
+  PathTracer byMouth = room.tracerWith(Aims(&skylight)), byPane = room.tracerWith(Aims(&alone));
+  const V3d origin(.5, 3, 3.5), west(-1, 0, 0);
+  Sample with, without;
+  for (uint64_t i = 0; i < 30000; ++i) {
+    with.add(byMouth.trace(origin, west, 0, mixBits(i)).value.color.x);
+    without.add(byPane.trace(origin, west, 0, mixBits(i + 1000000)).value.color.x);
+  }
+  const double error = std::hypot(with.standardError(), without.standardError());
+  EXPECT_LT(std::abs(with.mean() - without.mean()), kMostSigmas * error);
+  EXPECT_GT(std::abs(1.3 * with.mean() - without.mean()), kMostSigmas * error) << "the spoiled twin";
+  EXPECT_LT(with.standardError(), .7 * without.standardError());
 }
 
 }  // namespace
