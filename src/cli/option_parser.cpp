@@ -581,6 +581,8 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   checkIrradiance(options);
   checkTogether(options, given.has("-Sx"));
   if (!options.picture.empty()) options.pictureRay = rayOptionsOfPictures(given, options);
+  for (const std::string_view name : {"-Siw", "-Siv", "-Sih", "-Sie"})
+    if (answers && options.picture.empty() && given.has(name)) commandLineError(name, "needs -Si, a picture");
   return std::move(given.uses);
 }
 

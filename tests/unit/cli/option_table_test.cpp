@@ -76,6 +76,8 @@ TEST(OptionTable, RangesHold) {
       std::vector<std::string> words{entry.mode == Mode::points ? "rsphere" : "rtrace",
                                      std::string(entry.name), word, "s.oct"};
       if (entry.name == "-Sub") words.insert(words.begin() + 1, "-Su");
+      if (entry.name.starts_with("-Si") && entry.name != "-Si")
+        words.insert(words.begin() + 1, {"-Si", "x.png"});
       if (entry.name == "-Sx") words.insert(words.begin() + 1, {"-Sn", "1"});
       if (entry.name == "-lw") words.insert(words.begin() + 1, {"-lr", "1"});
       try {

@@ -114,7 +114,7 @@ TEST(RayEstimator, ReachesTheAccuracy) {
   }
 }
 
-// Patches with few rays have a noise that more rays of the sensors do not reduce. These are answered by paths.
+// The noise of patches with few rays is not reduced by more rays of the sensors. These are answered by paths.
 TEST(RayEstimator, PatchesThatAreTooNoisyAreNotUsed) {
   RayOptions options = raysOf(.1);
   options.raysForPatches = 8;
