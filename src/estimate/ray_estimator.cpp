@@ -48,11 +48,12 @@ class Gathers {
   // The variance of the mean of both halves.
   Variance variance() const { return withSolutions(ofGathers(), meansOfSolutions()); }
 
-  // Whether the noise of patches, which more rays do not reduce, exceeds this error.
+  // Whether the noise of patches, which more rays do not reduce, is far above this error.
   bool patchesExceed(double error) const {
     if (!share_) return false;
     const double shown = ofSolutions(meansOfSolutions()).brightness;
-    return shown > error * error && shown > tuning::RaySets::kByPatches * ofGathers().brightness;
+    const double most = tuning::RaySets::kTooNoisy * error;
+    return shown > most * most && shown > tuning::RaySets::kByPatches * ofGathers().brightness;
   }
 
  private:

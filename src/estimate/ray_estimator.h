@@ -14,7 +14,9 @@
 // -Sa: the sets are divided into two halves. The spread of one half decides how many rays the sets of the
 // other half get, so that the number of rays does not depend on the values that are averaged: a half that
 // misses something bright seems less noisy than it is. If the stated error is still too large, all sets get
-// more rays; this causes the remaining bias (two_halves.h has measured it for points).
+// more rays; this causes the remaining bias (two_halves.h has measured it for points). Where the solutions
+// differ by much more than the accuracy, more rays do not help: the ray is then estimated by paths that use
+// no patches.
 #include <functional>
 #include <vector>
 
