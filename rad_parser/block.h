@@ -10,7 +10,8 @@ namespace rad {
 
 // Continues reading a descriptor into a block of `size` bytes. The data from keep to end are moved to the
 // front of the block, next is adjusted, and new data are appended, up to the new end. At the end of the data,
-// the descriptor becomes -1. Returns whether there were new data. where(): the beginning of an error message.
+// the descriptor becomes -1. Returns whether there were new data. where(): the beginning of the error message
+// if the data cannot be read.
 template <class Byte, class Where>
 bool readOn(int& descriptor, Byte* block, size_t size, const Byte*& keep, const Byte*& next, const Byte*& end,
             const Where& where) {

@@ -34,7 +34,8 @@ struct Cube {
 };
 
 // The contents of the scene files in their order, as plain values. Files named in arguments have not been
-// looked up. Nothing has been computed, but xform commands run in this process have transformed arguments.
+// looked up. Nothing has been computed, except that xform commands executed in this process have transformed
+// arguments.
 struct Description {
   std::vector<SourceFile> files;
   PrimitiveList primitives;
@@ -43,7 +44,8 @@ struct Description {
   std::deque<std::string> words;
   std::vector<uint32_t> stringArgs;  // indices in words
   std::vector<double> realArgs;      // of all primitives except polygons
-  std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; zeros complete the last
+  std::vector<Imath::V3d> vertices;  // the real arguments of polygons, in threes; a last incomplete three
+                                     // is filled with zeros
 
   // For an octree: the lines of its information header, except FORMAT lines.
   std::vector<std::string> header;
@@ -72,8 +74,9 @@ class ModifierIndex {
   // Indexes all primitives starting with primitives[first].
   explicit ModifierIndex(const Description& description, size_t first = 0);
 
-  // The last modifier of this name that is defined before primitives[index]; the name refers to it there.
-  // kVoid if there is none, and for "void". The time is logarithmic in the definitions of the name.
+  // The last modifier of this name that is defined before primitives[index]; this is the one to which the
+  // name refers there. kVoid if there is none, and for "void". The time is logarithmic in the number of
+  // definitions of the name.
   PrimitiveId before(std::string_view name, PrimitiveId index) const;
 
   // The most similar modifier that is defined before primitives[index], or void, as the end of a message (see

@@ -38,7 +38,8 @@ class FileAccess {
 std::optional<std::string> findFile(std::string_view name, std::string_view searchPath,
                                     std::string_view base = {}, const FileAccess& access = {});
 
-// The path from the current directory to a file whose name is relative to `base`; absolute names as given.
+// The path from the current directory to a file whose name is relative to `base`. Absolute names are returned
+// unchanged.
 std::string joinPath(std::string_view base, std::string_view name);
 
 // The part of the path before its last '/' ("/" for a file in the root directory). Empty if there is no '/'.

@@ -25,7 +25,8 @@ size_t mostChanges(size_t letters) {
 }  // namespace
 
 size_t editDistance(std::string_view a, std::string_view b) {
-  // Rows of the table of distances between beginnings of a and b: for i + 1 letters of a, and the two before.
+  // Rows of the table of distances between the beginnings of a and b: the one for i + 1 letters of a, and the
+  // two before it.
   std::vector<size_t> row(b.size() + 1), before(row), twoBefore(row);
   for (size_t k = 0; k <= b.size(); ++k) row[k] = k;
   for (size_t i = 0; i < a.size(); ++i) {

@@ -10,7 +10,8 @@ namespace {
 
 bool isDigit(char c) { return '0' <= c && c <= '9'; }
 
-// Whether a number that a double cannot represent is too small, not too large. digits: valid, without sign.
+// Whether a number that a double cannot represent is too small rather than too large. digits: a valid number
+// without sign.
 bool tooSmall(std::string_view digits) {
   const size_t e = digits.find_first_of("eE");
   const std::string_view mantissa = digits.substr(0, e);
@@ -30,7 +31,8 @@ bool tooSmall(std::string_view digits) {
 // Powers of ten, by the number of digits that are read together.
 constexpr std::array<uint64_t, 9> kScale = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// Reads digits, eight at a time while so many characters are left, and counts them without branches.
+// Reads digits, eight at a time if that many characters are left. The number of digits among the eight is
+// found without branches.
 const char* readDigits(const char* at, const char* last, uint64_t& value) {
   static_assert(std::endian::native == std::endian::little);
   while (last - at >= 8) {

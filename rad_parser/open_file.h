@@ -14,7 +14,8 @@
 
 namespace rad {
 
-// A file that is open for reading as long as this object exists; if it fails, descriptor() is -1 (errno).
+// A file that is open for reading as long as this object exists. If it cannot be opened, descriptor() is -1
+// and errno is the reason.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -31,7 +32,8 @@ class OpenFile {
   // Size in bytes when the file was opened, if it is regular.
   size_t size() const { return static_cast<size_t>(begin_.st_size); }
 
-  // The contents from the current position. name: for messages. Throws Error if unreadable, as a folder is.
+  // The contents, starting at the current position. name: for messages. Throws Error if they cannot be read,
+  // for example if it is a folder.
   std::string contents(std::string_view name) const {
     std::string bytes;
     if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));

@@ -40,7 +40,8 @@ inline constexpr int kTypes = static_cast<int>(Type::alias) + 1;
 // The name of a type as spelled in scene files ("BRTDfunc").
 std::string_view typeName(Type type);
 
-// Finds the type of this name, spelled exactly. If there is none, returns false and leaves `type` unchanged.
+// Finds the type of this name, in exact spelling. Returns false, and leaves `type` unchanged, if there is
+// none.
 bool findType(std::string_view name, Type& type);
 
 // The most similar type for a misspelt name, as the end of a message (see NearestName::hint()).
@@ -70,7 +71,8 @@ struct Primitive {
   Place place;                            // of the primitive's first word
   uint32_t firstString = 0, strings = 0;  // range in Description::stringArgs
   uint32_t reals = 0;                     // number of real arguments
-  uint64_t firstReal = 0;                 // index in Description::realArgs; of a polygon: in its vertices
+  uint64_t firstReal = 0;                 // index of the first one in Description::realArgs; for a polygon,
+                                          // of the first vertex in Description::vertices
   std::string name;
 };
 

@@ -17,7 +17,8 @@ namespace {
 // Its name is stored in another list, as
 //   lengths             of the part in common with the preceding name, and of the rest
 //   the rest
-// Numbers have 7 bits a byte, lowest first; the highest: more follow. Differences have a sign in the lowest.
+// Numbers have 7 bits a byte, lowest first; the highest bit is set if more bytes follow. Differences have
+// their sign in the lowest bit.
 constexpr uint8_t kMore = 0x40, kTypeBits = 0x3f;
 static_assert(kTypes <= kTypeBits + 1);
 constexpr uint8_t kFile = 1, kAliased = 2, kStrings = 4, kArguments = 8;

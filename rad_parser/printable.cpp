@@ -12,7 +12,8 @@ namespace {
 constexpr size_t kLongestWord = 500, kLongestMessage = 4000, kLongestMissing = 80;
 constexpr std::string_view kCut = "...";
 
-// A character of UTF-8: code and length in bytes; 0 if the text begins with none in its shortest form.
+// A character of UTF-8: its code and its length in bytes. The length is 0 if the text does not begin with a
+// character in its shortest form.
 struct Character {
   uint32_t code = 0;
   size_t length = 0;

@@ -99,7 +99,8 @@ class SceneReader {
   Description take() { return builder_.take(); }
 
  private:
-  // Reads data that begin with `ahead` if they are an octree, and returns whether. An empty one is an error.
+  // If the data, which begin with `ahead`, are an octree, reads it and returns true. An empty octree is an
+  // error. Returns false for other data.
   bool octree(int descriptor, uint32_t file, std::string_view ahead) {
     const std::string name = builder_.description().files[file].name;
     if (!ahead.empty() && !isOctree(ahead, name)) return false;
@@ -288,7 +289,8 @@ class SceneReader {
     builder_.add(p);
   }
 
-  // The end of the message for an undefined modifier_ that no type follows: the user's probable mistake.
+  // The end of the error message for an undefined modifier_ that is not followed by a type: the probable
+  // mistake of the user.
   std::string whyNoPrimitive(Place place) const {
     const Description& description = builder_.description();
     const bool first =

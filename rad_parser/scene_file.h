@@ -20,8 +20,9 @@ struct ReadOptions {
 inline constexpr int kDeepestNesting = 100;
 
 // Reads scene text into a description. Files are read in the given order, so a file may use the modifiers of
-// earlier ones. A name that begins with '!' is a command whose output is read. If no file has the given name,
-// it is searched for along RAYPATH (file_path.h), unless it begins with '/', '.' or '~'.
+// earlier ones. A name that begins with '!' is a command whose output is read. If a file with the given name
+// exists, it is read; otherwise the name is searched along RAYPATH (file_path.h), unless it begins with '/',
+// '.' or '~'.
 //
 // Commands. An xform command that names files and contains no shell syntax is executed in this process,
 // together with the commands in its files. Arguments keep all digits, whereas the program xform rounds them
@@ -41,8 +42,9 @@ inline constexpr int kDeepestNesting = 100;
 // integer arguments must be 0, because no type has any. Memory is in proportion to the text. Source: RADIANCE
 // reference manual, "Scene description"; oconv(1), xform(1).
 //
-// A name may be an octree, or a command that writes one. Octrees are recognized by their contents and read by
-// readOctree(). An empty file is an error if its name ends with ".oct"; so is a command without output.
+// A single name may be an octree, or a command that writes one. Octrees are recognized by their contents and
+// read by readOctree(). An empty file is an error if its name ends with ".oct"; so is a command without
+// output.
 Description readScene(std::span<const std::string> names, const ReadOptions& options = {});
 
 // Reads an octree of oconv(1), frozen or not. name is searched along RAYPATH, as for the type instance.

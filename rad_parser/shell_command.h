@@ -10,7 +10,8 @@ namespace rad {
 // standard error. The destructor kills an unfinished command.
 class ShellCommand {
  public:
-  // directory: of the command; empty: the current one. Throws std::system_error if no process can be started.
+  // directory: in which the command runs; empty: the current one. Throws std::system_error if no process can
+  // be started.
   ShellCommand(const std::string& command, const std::string& directory);
   ~ShellCommand();
   ShellCommand(const ShellCommand&) = delete;

@@ -32,7 +32,8 @@ class TextSource {
   void skipLine();
 
   // The rest of the line without its end, which may be "\n", "\r\n" or "\r". If the line ends with a
-  // backslash, the next line is included; backslash and line end are kept, as a shell expects.
+  // backslash, the next line is included; the backslash and the line end between them are kept, as a shell
+  // expects.
   std::string line();
 
   // Reads the next word, which is valid until the next call. Returns false at the end of the text.

@@ -11,7 +11,8 @@
 
 namespace rad {
 
-// The format in a line of an information header ("FORMAT=..."), without blanks. Empty if there is none.
+// The format in a line of an information header ("FORMAT=..."), without surrounding blanks. Empty if the line
+// contains no format.
 std::optional<std::string_view> headerFormat(std::string_view line);
 
 // Reads the portable binary data of octrees and meshes from a file descriptor, in blocks, so that memory does
@@ -26,7 +27,8 @@ class BinaryReader {
   // read from the descriptor, at most half a block (128 kB).
   BinaryReader(int descriptor, std::string name, std::string kind, std::string_view ahead = {});
 
-  // The information header, which ends with an empty line. Octrees of 1989 lack its first line, "#?RADIANCE".
+  // The information header, which ends with an empty line. Its first line need not be "#?RADIANCE", because
+  // octrees of 1989 lack that line.
   struct Header {
     std::vector<std::string> lines;  // without line ends and without FORMAT lines
     std::string format;              // the last format that is given; empty if there is none
@@ -64,7 +66,8 @@ class BinaryReader {
     const auto m = static_cast<int32_t>(integer(4));
     const auto e = static_cast<int8_t>(*next_++);
     if (m == 0) return 0;
-    // Other readers multiply by the reciprocal, too, so that results agree to the last bit.
+    // Other readers also multiply by the reciprocal instead of dividing, so that results agree to the last
+    // bit.
     return (m + (m < 0 ? -.5 : .5)) * (1. / 0x7fffffff) * kPowers[128 + e];
   }
 

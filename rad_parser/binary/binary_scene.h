@@ -9,7 +9,8 @@ namespace rad {
 // Reads the parts that octrees and meshes have in common. Errors contain the byte at which they were noticed.
 
 // Reads the width of object numbers, 1 to 8 bytes: the format number minus `magic`. Throws if it is out of
-// range. otherFormat: the format in the header, if not the expected one, as the error's reason.
+// range. otherFormat: the format named in the header, if it differs from the expected one; the error then
+// gives it as the reason.
 int readIndexWidth(BinaryReader& input, int magic, std::string_view otherFormat = {});
 
 // The cube that encloses all surfaces. It is stored as four numbers in text.
@@ -42,11 +43,13 @@ void passOverCells(BinaryReader& input, int width, Object object) {
 }
 
 // Reads binary primitives into the builder, as primitives of file `file`; their places are their numbers.
-// Modifiers refer to earlier primitives of the data, the first in the builder's description. An unknown type
-// name causes a warning; a primitive of this type, an error. Returns the number of primitives.
+// Modifiers refer to earlier primitives of the same data, which must be the first in the builder's
+// description. An unknown type name causes a warning, and an error if a primitive has this type. Returns the
+// number of primitives.
 //
 // An alias with the same modifier as another primitive refers to it by number, any other alias by name. In
-// the former case that primitive's name, perhaps not that of the original text, becomes the alias's argument.
+// the former case the name of that primitive becomes the string argument of the alias, which may differ from
+// the name in the original text.
 int64_t readPrimitives(BinaryReader& input, int width, uint32_t file, DescriptionBuilder& builder,
                        const Warn& warn);
 

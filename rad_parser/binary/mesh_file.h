@@ -44,20 +44,23 @@ struct Mesh {
   std::vector<std::array<uint32_t, 2>> uvs;
   std::vector<Triangle> triangles;
 
-  // In the mesh's coordinates. Compiling the mesh causes an error of at most 2^-33 of the cube's size.
+  // In the mesh's coordinates. The error of a coordinate from compiling the mesh is at most 2^-33 of the
+  // cube's size.
   Imath::V3d position(uint32_t vertex) const;
 
   // Of unit length. The error from compiling the mesh is at most 0.006 degrees. Empty if the vertex has none.
   std::optional<Imath::V3d> normal(uint32_t vertex) const;
 
-  // u and v. Compiling the mesh causes errors of at most 2^-33 of the range. Empty: none.
+  // u and v. Their errors from compiling the mesh are at most 2^-33 of the range. Empty if the vertex has
+  // none.
   std::optional<Imath::V2d> uv(uint32_t vertex) const;
 };
 
 // The unit vector represented by a code of 32 bits; zero for the code 0. Bits 0 to 2 are the signs of x, y
 // and z. Bits 5 to 17 and 18 to 30 are the two smaller magnitudes of the three, times (2^13-1/2)*sqrt(2). The
-// first is the smaller of x and y (x if bit 3 is set). The second is the smaller of z and the other of x and
-// y (z if bit 4 is set). Source: RADIANCE's encoding in its source file dircode.c; mean error 0.0022 degrees.
+// first is the smaller one of x and y (x if bit 3 is set). The second is the smaller one of z and the other
+// of x and y (z if bit 4 is set). Source: RADIANCE's encoding in its source file dircode.c; mean error 0.0022
+// degrees.
 Imath::V3d decodeDirection(uint32_t code);
 
 // Reads a mesh. name is searched along RAYPATH like in findFile(). Throws Error with Status::system if the

@@ -20,7 +20,8 @@ bool isOctree(std::string_view beginning, std::string_view name);
 
 // Reads an octree into the builder's description, which must be empty except for `file`, the octree itself. A
 // frozen octree contains its primitives, whose places are their numbers. For any other octree,
-// sceneFile(name) is called for each scene file that it names, in order, and must add its primitives.
+// sceneFile(name) is called for each scene file that it names, in order; it must add the primitives of that
+// file to the builder.
 //
 // Header and bounds are stored. Cells are read only to check them against the scene. Bytes after the end are
 // ignored. Throws

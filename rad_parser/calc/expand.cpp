@@ -35,7 +35,8 @@ struct Argument {
   int symbol = -1;
 };
 
-// The environment in which a tree is compiled: the definition that it belongs to, and the arguments of that.
+// The environment in which a tree is compiled: the definition whose body it belongs to, and the arguments of
+// that definition's parameters.
 struct Scope {
   const Definition* definition = nullptr;  // null: the primitive's own expressions
   const Scope* caller = nullptr;           // scope of the call that the definition's body replaces
@@ -145,7 +146,8 @@ class Expander {
       case Kind::power: {
         const Id base = compile(tree.args[0], scope);
         const Id exponent = compile(tree.args[1], scope);
-        // RADIANCE's rule if the base is the number 0 and the exponent is variable: the result is always 0.
+        // RADIANCE's rule if the base is written as the number 0 and the exponent is variable: the result is
+        // 0 even if the exponent is 0.
         if (tree.args[0].kind == Kind::number && tree.args[0].number == 0 && !graph.isConstant(exponent))
           return base;
         return graph.operate(Op::power, base, exponent);
@@ -209,7 +211,8 @@ class Expander {
     return id;
   }
 
-  // The symbol of the function that a callee or an argument names; -1 and the problem if it names none.
+  // The symbol of the function named by a callee or an argument. If it names no function, returns -1 and the
+  // problem.
   int function(const Syntax& tree, const Scope& scope, std::string& problem) const {
     const Syntax* t = &tree;
     const Scope* s = &scope;
@@ -271,7 +274,8 @@ class Expander {
       for (size_t i = 0; i < isNew.size(); ++i) {
         if (!isNew[i]) continue;
         const Id before = i < s->arguments.size() ? s->arguments[i].node : kNone;
-        // If the argument of the enclosing call is not constant or not compiled, recursion may be endless.
+        // If the argument of the enclosing call is not constant, or not yet compiled, the recursion may be
+        // endless.
         isNew[i] =
             before != kNone && inner.frame->graph.isConstant(before) && before != inner.arguments[i].node;
       }

@@ -17,7 +17,8 @@
 // Function files consist of many small definitions that refer to each other. Therefore every call is replaced
 // by the body of the function, and a parameter by the node of its argument. A recursive call is expanded as
 // long as some argument is a new constant each time, as in the octaves of turbulence; otherwise it becomes a
-// call of a frame, which is compiled separately. Each combination of functions as arguments has its frame.
+// call of a frame, which is compiled separately. If arguments are functions, each combination of functions
+// has a separate frame.
 namespace rad::calc {
 
 // A built-in function of the language. `arity`: number of arguments that it needs. Further arguments are

@@ -126,7 +126,8 @@ Id Graph::operate(Op op, Id a, Id b, Id c) {
       if (a > b) std::swap(a, b);
       break;
     case Op::divide:
-      // Like RADIANCE, multiplies by the reciprocal of a constant divisor, which rounds once more.
+      // Like RADIANCE, multiplies by the reciprocal of a constant divisor. The result may differ from the
+      // quotient by one rounding.
       if (isConstant(b) && std::isnormal(1 / nodes_[b].value)) {
         return operate(Op::multiply, a, constant(1 / nodes_[b].value));
       }

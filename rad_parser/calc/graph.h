@@ -14,7 +14,8 @@ namespace rad::calc {
 using Id = uint32_t;
 inline constexpr Id kNone = 0xffffffff;
 
-// An operation and its operands. A graph has at most one node for each op, a, b, c, value and list.
+// An operation and its operands. A graph has at most one node for each combination of op, a, b, c, value and
+// list.
 struct Node {
   Op op = Op::constant;
   // The first directOperands(op) of these are operands. For other operations, `a` is the index of an input,

@@ -4,7 +4,8 @@
 
 #include "rad_parser/calc/graph.h"
 
-// For code_writer.h: the block of code that computes each node of a frame, and the place of its value.
+// Assigns each node of a frame to the block of code that computes it, and to the place of its value. For
+// code_writer.h.
 //
 // Blocks are nested: the root is always evaluated, and each branch of an if() or select() is a block within
 // the block of that operation. A node is placed in the innermost block that contains all its uses. If no use
@@ -25,7 +26,8 @@ struct Placement {
   bool isCell = false;
   uint32_t cell = 0;  // of a cell or parameter: its number among the frame's cells
   uint32_t reg = 0;   // register of its value, counted from the frame's first register
-  // if(), select(), calls: the block of the first branch or postponed argument; the others follow it.
+  // if(), select(), calls: the block of the first branch or postponed argument; the others are the following
+  // blocks.
   uint32_t firstBlock = kNone;
 };
 

@@ -44,7 +44,8 @@ struct Library::Tables {
   std::map<std::string, std::shared_ptr<const Program>> programs;  // by keyOf()
   bool begun = false;
 
-  // Returned programs keep their definitions. They must not be returned again if definitions have changed.
+  // Programs that were returned keep the definitions with which they were compiled. They must not be returned
+  // again if definitions have changed.
   void addAll(std::string_view text, std::string_view file, const std::string& context) {
     for (Definition& d : parseDefinitions(text, file))
       if (symbols.define(std::move(d), context)) programs.clear();

@@ -45,7 +45,8 @@ struct Interface {
 };
 
 // Finds and reads a function file. Empty if it does not exist. Throws Error, without the place of the
-// request, if it cannot be read. The function must not call the library, which is locked.
+// request, if it cannot be read. The library is locked during the call, so the function must not call the
+// library.
 using LoadFile = std::function<std::optional<SourceText>(std::string_view name)>;
 
 struct Request {
@@ -64,7 +65,8 @@ class Library {
   Library(Interface interface, LoadFile load, Warn warn = {});
   ~Library();
 
-  // Adds definitions to the shared context, after the prelude: a text (-e) or a file (-f). Throws Error.
+  // Adds definitions to the shared context, after the prelude: the text of an option -e, or the file of -f.
+  // Throws Error.
   void define(std::string_view text, std::string_view place);
   void include(std::string_view file);
 
@@ -75,11 +77,13 @@ class Library {
   // - for an undefined name that every evaluation would need.
   std::shared_ptr<const Program> compile(const Request& request);
 
-  // The program for function(Point::arguments[0], .. [count-1]). Ignores expressions. Throws like compile().
+  // The program for function(Point::arguments[0], .. [count-1]). Ignores request.expressions. Throws like
+  // compile().
   std::shared_ptr<const Program> compileCall(const Request& request, std::string_view function, int count);
 
-  // The number of arguments of the function of this name in the primitive of the request; 0 if there is no
-  // such function. Uses only place and file of the request. Throws Error if the file is not found or invalid.
+  // The number of arguments of the function to which this name refers in the primitive of the request; 0 if
+  // there is no such function. Uses only place and file of the request. Throws Error if the file is not found
+  // or invalid.
   int functionArity(const Request& request, std::string_view name);
 
  private:

@@ -30,7 +30,8 @@ constexpr std::array<uint8_t, 512> kTwice = [] {
   return twice;
 }();
 
-// The directions from the centre of a cube to the midpoints of its 12 edges. Four are repeated to make 16.
+// The directions from the centre of a cube to the midpoints of its 12 edges. Four of them are repeated to
+// make 16.
 struct Gradient {
   double x, y, z;
 };

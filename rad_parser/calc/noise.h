@@ -13,7 +13,8 @@ double randomOf(double x);
 double noise3(double x, double y, double z);
 
 // The step of the backward difference (f(x) - f(x-step))/step that defines noise3x, noise3y and noise3z. It
-// cannot be replaced by the exact gradient, which differs by 1e-3: existing scenes depend on the step.
+// cannot be replaced by the exact gradient, which differs by 1e-3, because values in existing scenes depend
+// on the step.
 inline constexpr double kNoiseStep = .0005;
 
 // Fractal noise by midpoint displacement on the integer lattice, down to a spacing of 1/2000. Within about

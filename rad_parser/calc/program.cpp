@@ -85,7 +85,8 @@ double apply(Op op, double a, double b, double c, uint32_t& faults) {
   }
 }
 
-// Allocates an activation of a frame and initializes its constants, and its cells as not computed.
+// Allocates and initializes an activation of a frame: the constants, and the cells, none of which is computed
+// yet.
 double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t cellBase) const {
   const size_t top = size_t{base} + frame.registers, cellTop = size_t{cellBase} + frame.cells;
   if (state.registers_.size() < top) state.registers_.resize(2 * top);
@@ -99,7 +100,8 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
   return r;
 }
 
-// Pushes an entry onto the return stack, whose depth the caller keeps, so that it can be in a register.
+// Pushes an entry onto the return stack. The caller keeps the depth of the stack, so that the interpreter can
+// hold it in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
   if (depth >= kMaxDepth || registers > kMaxRegisters) {
     throw Error(fmt::format("{}: recursion is too deep or endless", frame.name));

@@ -14,10 +14,12 @@ struct Point {
   std::span<const double> arguments;  // arguments of the function, in a program from Library::compileCall()
 };
 
-// Why an undefined value is replaced by 0, as in RADIANCE: division by 0, or a power or function not finite.
+// Reasons why an undefined value is replaced by 0, as in RADIANCE: division by zero, or a power or library
+// function without a finite result.
 enum Fault : uint32_t { kDivisionByZero = 1, kIllegalPower = 2, kDomainError = 4, kRangeError = 8 };
 
-// The name of the first fault; "not finite" if there is none: RADIANCE has none for sums and products.
+// The name of the first fault that is set. "not finite" if there is none, because in RADIANCE the overflow of
+// a sum or product is not a fault.
 const char* faultName(uint32_t faults);
 
 // A function supplied by the renderer. It is called with all arguments of the call, at least `arity`. It may
@@ -37,7 +39,8 @@ class State {
 
  private:
   friend class Program;
-  // A value that is computed when first needed. pc: the start of its code; then kBusy, and at last kDone.
+  // A value that is computed when it is first needed. pc: the start of its code; kDone after the computation,
+  // kBusy during it.
   struct Cell {
     uint32_t pc, base, cellBase;
   };
@@ -143,9 +146,11 @@ class Program {
   // The number of instructions, for tests.
   size_t size() const { return code_.size(); }
 
-  // Limits on the calls and postponed values in progress at a time, and on their registers (8 bytes each).
+  // Limits on the number of calls and postponed values in progress at the same time, and on their registers
+  // (8 bytes each).
   static constexpr size_t kMaxDepth = 100000, kMaxRegisters = size_t{1} << 25;
-  // Limit on the calls in one evaluation, about a second: branching recursion can be long without being deep.
+  // Limit on the calls in one evaluation; they take about a second. Branching recursion can run for very long
+  // without being deep.
   static constexpr size_t kMaxCalls = 20000000;
 
  private:
@@ -156,7 +161,8 @@ class Program {
     Op op;
     uint32_t to, a, b, c;
   };
-  // The code of a function and the memory of an activation. Registers begin with constants and parameters.
+  // The code of a function and the memory of one activation. The first registers hold constants,
+  // the next ones parameters.
   struct Frame {
     std::string name;  // "fun.cal:7: f"
     uint32_t begin = 0;
@@ -181,7 +187,8 @@ class Program {
   bool constant_ = false;
 };
 
-// The value of an operator or a function of one to three arguments; if undefined, 0 and a bit of `faults`.
+// The value of an operator or of a library function of one to three arguments. Sets a bit of `faults` and
+// returns 0 if the value is undefined.
 double apply(Op op, double a, double b, double c, uint32_t& faults);
 
 }  // namespace rad::calc

@@ -11,7 +11,8 @@
 #include "rad_parser/calc/syntax.h"
 #include "rad_parser/error.h"
 
-// For library.cpp: the definitions of all contexts, and the symbols to which names refer (library.h).
+// The definitions of all contexts, and the symbols to which names refer. For library.cpp; library.h describes
+// contexts and constants.
 namespace rad::calc {
 
 // The qualified names to which a name in a context may refer, nearest first.
@@ -28,7 +29,8 @@ class SymbolTable {
   // The symbol of a qualified name, or -1.
   int find(const std::string& qualified) const;
 
-  // The symbol to which a name in a context refers; it is created if it does not exist.
+  // The symbol to which a name in a context refers. If it does not exist it is created, and later references
+  // to the name find it.
   int refer(const std::string& name, const std::string& context);
 
   // The renderer's function of this name, or null.

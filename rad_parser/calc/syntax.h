@@ -21,7 +21,8 @@ namespace rad::calc {
 
 inline constexpr char kContextMark = '`';
 
-// Whether a character may be part of a name, in any locale, unlike classes of the C library.
+// Whether a character may be part of a name. The character classes of the C library are not used, because
+// they depend on the locale.
 bool isNamePart(char c);
 
 struct Syntax {
@@ -46,10 +47,12 @@ struct Definition {
   bool isFunction() const { return !parameters.empty(); }
 };
 
-// Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is one level.
+// Limit on the depth of trees, because the stack is finite. A chain of + and -, or of * and /, is a single
+// level regardless of its length.
 inline constexpr int kMaxNesting = 400;
 
-// Parses the definitions in a file from the line firstLine on. Throws Error "FILE:LINE: expected ...".
+// Parses the definitions in a file whose first line has the number firstLine. Throws Error "FILE:LINE:
+// expected ...".
 std::vector<Definition> parseDefinitions(std::string_view text, std::string_view file,
                                          uint32_t firstLine = 1);
 

@@ -25,7 +25,8 @@ enum Input : uint32_t {
 };
 // clang-format on
 
-// Request::available of patterns and textures, of materials with functions or data, and of prisms.
+// Request::available for three kinds of primitives: patterns and textures, materials with functions or data,
+// prisms.
 inline constexpr uint64_t kPointInputs = (uint64_t{1} << NxP) - 1;
 inline constexpr uint64_t kMaterialInputs = (uint64_t{1} << DxA) - 1;
 inline constexpr uint64_t kPrismInputs = kPointInputs | (uint64_t{7} << DxA);

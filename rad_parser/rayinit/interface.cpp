@@ -53,7 +53,8 @@ double sourceCorrection(const Point& point, std::span<const double> arguments) {
     case 1: return value / point.inputs[Rdot];
     case 2: return value / projectedArea(d, side(2), side(3), side(4));
     case 3: {
-      // Each side that faces the start of the ray adds its area times the distance of start and plane.
+      // Each side that faces the start of the ray contributes its area, times the distance of the start from
+      // its plane.
       const double distance = point.inputs[Ts];
       const double x = side(2), y = side(3), z = side(4);
       const auto beyond = [&](int axis, double length) {
@@ -92,7 +93,8 @@ double sourcePhi(const Point& point, std::span<const double> arguments) {
   }
 }
 
-// The prism panel described by the real arguments, as in fprism.cal. The third, its thickness, has no effect.
+// The prism panel described by the real arguments, as in fprism.cal. The third, the panel's thickness, has no
+// effect.
 PrismPanel panelOf(const Point& point, const char* function) {
   const auto argument = [&](size_t n) { return real(point, n, function); };
   PrismPanel panel;

@@ -26,7 +26,8 @@ struct Beam {
 
 double cross(const V2d& u, const V2d& v) { return u.x * v.y - u.y * v.x; }
 
-// The axes of polarization at a side with this normal: parallel and perpendicular to the plane of incidence.
+// The axes of polarization of light that hits a side with this normal: parallel and perpendicular to the
+// plane of incidence.
 struct Axes {
   V3d parallel, perpendicular;
 };
@@ -159,7 +160,8 @@ class Trace {
   }
 
   const PrismPanel& panel_;
-  // Of two neighbouring prisms: the start of the first, its edge, the valley between, the second's edge.
+  // For two neighbouring prisms: the start of the first, its edge, the valley between them, and the edge of
+  // the second.
   V2d foot_, edge_, valley_, nextEdge_;
   V3d normals_[3];  // of the glass, outwards, by Side
   PanelRays rays_;

@@ -8,7 +8,8 @@ namespace rad {
 
 // A transparent panel with a flat side and a side of prisms. Its normal is x, from the flat side to the
 // prisms, which are parallel to z. In cross-section, a prism has a base of length a + b and an edge at
-// `height` above it. The side that faces +y is above the part a, the other side above b, in any unit.
+// `height` above it. The side that faces +y is above the part a of the base, the other side above b. The unit
+// of a, b and height is arbitrary.
 struct PrismPanel {
   // The side with a mirror coating: none, the one towards +y, or the one towards -y.
   enum class Coated { nothing, upper, lower };
@@ -41,7 +42,8 @@ struct PanelRays {
 // and refracted by Fresnel's formulas at each side, and split where an edge divides it. The glass absorbs
 // nothing. Polarization is represented by two perpendicular fields; as in RADIANCE's fprism, both have the
 // same weight at each side, regardless of earlier losses. Requires a + b > 0, height > 0, index >= 1,
-// tolerance > 0. Throws Error for more than kMost directions or a hundred thousand hits.
+// tolerance > 0. Throws Error if there are more than kMost directions or if the light hits more than a
+// hundred thousand sides.
 PanelRays raysThrough(const PrismPanel& panel, const Imath::V3d& direction);
 
 }  // namespace rad

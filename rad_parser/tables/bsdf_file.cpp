@@ -120,7 +120,8 @@ class TreeReader {
     data_.take(',');
   }
 
-  // Reads the values of a grid of 1, 2, 4, ... cells along each dimension; the last varies fastest.
+  // Reads the values of an even grid with 1, 2, 4, ... cells along each dimension. The index of the last
+  // dimension varies fastest.
   void readGrid(size_t node, int depth) {
     values_.clear();
     for (char c = data_.next(); c != '}' && c != '\0'; c = data_.next()) values_.push_back(data_.value());
@@ -358,7 +359,8 @@ class BsdfReader {
     (channel == Channel::y ? trees->y : channel == Channel::first ? trees->u : trees->v) = std::move(tree);
   }
 
-  // Removes chromaticity without luminance and single coordinates of it, which determine no color.
+  // Removes chromaticity without luminance, and single coordinates of chromaticity, because they do not
+  // determine a color.
   void dropIncomplete() {
     for (auto& m : file_.matrices) {
       if (m && m->y.empty()) m.reset();

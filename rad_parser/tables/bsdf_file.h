@@ -31,11 +31,13 @@ struct BsdfMatrix {
   std::vector<float> x, z;             // in the order of y; both are empty for gray scattering
 };
 
-// A function on the unit cube of `rank` dimensions, constant on smaller cubes from halving all dimensions.
+// A function on the unit cube of `rank` dimensions. It is constant on smaller cubes, obtained by repeated
+// halving along all dimensions.
 struct TensorTree {
   struct Node {
     float value = 0;  // of a leaf
-    // Index of the first of 2^rank children; 0 for a leaf. Bit i of a child: the upper half in dimension i.
+    // Index of the first of 2^rank children; 0 for a leaf. Bit i of a child's number is set if the child is
+    // the upper half in dimension i.
     uint32_t children = 0;
   };
   std::vector<Node> nodes;  // the first is the root

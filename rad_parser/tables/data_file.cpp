@@ -24,7 +24,8 @@ DataFile DataFile::parse(std::string_view text, std::string_view name) {
   for (Axis& axis : data.axes_) {
     axis.first = finite("an axis' begin");
     axis.span = finite("an axis' end") - axis.first;
-    // Every division has values. A count above the rest of the file is an error, before memory is allocated.
+    // Every division has values. A count that exceeds the rest of the file is therefore an error, reported
+    // before memory is allocated.
     axis.count = static_cast<size_t>(numbers.integer("a number of divisions, 2 at least", 2, INT32_MAX));
     if (size > numbers.left() / axis.count) numbers.fail("fewer values in the file than its grid has points");
     size *= axis.count;

@@ -18,7 +18,8 @@ class DataFile {
   static constexpr size_t kMaxDimensions = 10;
 
   // Throws Error "NAME:LINE: .." for a missing or malformed number, fewer than two divisions, divisions that
-  // are neither strictly increasing nor strictly decreasing, and too few values. Text after them is ignored.
+  // are neither strictly increasing nor strictly decreasing, and fewer values than grid points. Text after
+  // the values is ignored.
   static DataFile parse(std::string_view text, std::string_view name);
 
   size_t dimensions() const { return axes_.size(); }

@@ -9,7 +9,8 @@
 
 namespace rad {
 
-// A character of a font: a polygon on a grid from 0 to 255, x to the right, y upwards. Seams connect holes.
+// A character of a font: a polygon on a grid from 0 to 255, with x to the right and y upwards. Holes are
+// connected to the outline by seams.
 struct Glyph {
   struct Vertex {
     uint8_t x, y;
@@ -18,7 +19,8 @@ struct Glyph {
   // The bounding box of the vertices and of the middle of the grid (128,128), as in RADIANCE.
   int left = 128, right = 128, bottom = 128, top = 128;
 
-  // Whether (x,y), both >= 0, is inside (even-odd rule). As in RADIANCE, edges are accurate to half a step.
+  // Whether (x,y) is inside, by the even-odd rule. As in RADIANCE, edges are accurate to half a grid
+  // step. Requires x and y >= 0.
   bool covers(double x, double y) const;
 };
 

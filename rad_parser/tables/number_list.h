@@ -19,7 +19,8 @@ class NumberList {
   // Whether only blanks and comments are left.
   bool atEnd();
 
-  // The number of bytes not yet read, a limit on the numbers that follow, to check counts before allocation.
+  // The number of bytes not yet read. At most this many numbers can follow, so counts can be checked before
+  // memory is allocated.
   size_t left() const { return text_.size() - position_; }
 
   // Throws an Error with the line of the last number that was read.

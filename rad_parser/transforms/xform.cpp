@@ -254,7 +254,8 @@ V3d Similarity::vector(const V3d& v) const {
 }
 
 Similarity Similarity::inverse() const {
-  // The linear part is the scale times an orthogonal matrix, whose inverse is its transpose.
+  // The linear part is the scale times an orthogonal matrix, so its inverse is its transpose divided by the
+  // square of the scale.
   Similarity result;
   result.scale = 1 / scale;
   const double factor = 1 / (scale * scale);

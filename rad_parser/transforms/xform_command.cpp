@@ -194,7 +194,8 @@ std::optional<std::vector<std::string>> plainWords(std::string_view command) {
     if (c == '\\' && i + 1 < command.size() && command[i + 1] == '\n') {
       ++i;
     } else if (c == ' ' || c == '\t' || c == '\n' || (c == '#' && !inWord)) {
-      // In a shell, an unescaped line end would begin another command, but command lines have none.
+      // In a shell, a line end that is not escaped would begin another command, but command lines do not
+      // contain any.
       if (inWord) words.push_back(word);
       word.clear();
       inWord = false;

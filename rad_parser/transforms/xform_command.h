@@ -13,15 +13,17 @@
 
 namespace rad {
 
-// The words of a command, if a shell would pass them unchanged: it contains none of |&;<>()$`\*?[]{}!, quotes
-// only in pairs, and a comment (#) only at its end. Empty if the command needs a shell.
+// The words of a command, if a shell would pass them unchanged: the command contains none of
+// |&;<>()$`\*?[]{}!, quotes only in pairs, and a comment (#) only at its end. Empty if the command needs a
+// shell.
 std::optional<std::vector<std::string>> plainWords(std::string_view command);
 
 // One pass of xform over its files.
 struct XformPass {
   Transform transform;
   std::vector<std::string> files;  // as given
-  bool changesDirectory = true;    // whether commands in files run in the files' directories (no -c)
+  bool changesDirectory = true;    // whether commands in the files run in the directories of the files
+                                   // (without -c)
 };
 
 // An error of an xform command. what() begins with "xform: ". The caller adds the place of the command.
@@ -50,7 +52,8 @@ XformFault tooMany();
 
 // The number of copies of its files that the arrays (-a) of a command make: the product of their counts.
 // Counts that forEachPass() rejects are ignored. Throws XformFault, before anything is copied, if the product
-// times `outside` is above kMostPasses. outside: copies of this command by enclosing ones.
+// times `outside` is above kMostPasses. outside: number of copies of this command that enclosing commands
+// make.
 int64_t copiesOfArrays(std::span<const std::string> words, int64_t outside = 1);
 
 }  // namespace rad

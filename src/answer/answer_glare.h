@@ -13,7 +13,8 @@ namespace rsphere {
 // The estimator of glare (-Su), with a workspace for each thread of -n.
 class GlareWorkers {
  public:
-  // checkStop is called repeatedly; it may throw to abandon the eye. Keeps a reference to the transport.
+  // checkStop is called repeatedly during an estimate; it may throw to abandon the eye. Keeps a reference to
+  // the transport.
   GlareWorkers(const Transport& transport, const AnswerOptions& options,
                const std::function<void()>& checkStop = {});
 

@@ -22,7 +22,8 @@ struct AnswerOptions {
   bool commands = true;                   // -Sc  whether commands in the scene may run
   std::vector<std::string> goals;         // -Sg
   std::vector<Sensor> sensors;            // goals in addition to -Sg
-  bool separate = false;                  // report the part due to each goal or light source's modifier
+  bool separate = false;                  // whether the part due to each goal, or to each light source's
+                                          // modifier, is reported
   std::vector<std::string> contributors;  // their names, set after the scene is read; empty: no parts
   // input
   NumberFormat in = NumberFormat::ascii;         // -f
@@ -55,7 +56,8 @@ struct AnswerOptions {
     return !sphereMode && (sphere.accuracy > 0 || outputs.find('e') != std::string::npos);
   }
 
-  // Values in an input record: x y z of a point, origin and direction of a ray, or an eye and its gaze.
+  // Number of values in an input record: x y z of a point, origin and direction of a ray, or an eye and its
+  // gaze.
   int numbersPerRecord() const { return sphereMode && !sphere.glare.wanted ? 3 : 6; }
 };
 

@@ -81,7 +81,8 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
                             : std::make_shared<const PictureMaker>(transport, options, pictureReport);
   return [&, workers, pictures](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
-    // Opened before the answer is computed: a file that cannot be written ends the run at once.
+    // Opened before the answer is computed: a file that cannot be written ends the run at once, not after a
+    // minute.
     std::optional<PictureFile> picture;
     if (pictures) picture.emplace(pictureName(options.picture, record.index));
     const PointAnswer answer = workers->answer(point, worker);

@@ -14,8 +14,9 @@ namespace rsphere {
 // The estimator of sphere mode, with a workspace for each thread of -n.
 class PointWorkers {
  public:
-  // standardError: whether PointAnswer should contain standard errors. checkStop is called repeatedly; it may
-  // throw to abandon the point. Keeps a reference to the transport. Throws the errors of SphereEstimator.
+  // standardError: whether PointAnswer should contain standard errors. checkStop is called repeatedly during
+  // an estimate; it may throw to abandon the point. Keeps a reference to the transport. Throws the errors of
+  // SphereEstimator.
   PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
                const std::function<void()>& checkStop = {});
 

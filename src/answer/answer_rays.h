@@ -19,10 +19,12 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 // One tracer for each thread of -n. The transport must exist as long as the tracers.
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
-// Estimates rays and their standard errors by independent sets. Threads of -n may call estimate() at a time.
+// Estimates rays by independent sets of rays, with their standard errors. Several threads of -n may call
+// estimate() at a time.
 class EstimatedRays {
  public:
-  // Keeps a reference to the transport. checkStop: called while a ray is computed; it may throw.
+  // Keeps a reference to the transport. checkStop: called while a ray is computed; what it
+  // throws is passed on to the caller.
   EstimatedRays(const Transport& transport, const AnswerOptions& options,
                 const std::function<void()>& checkStop);
   // farthest, seed: as for PathTracer::trace().

@@ -9,7 +9,8 @@
 namespace rsphere {
 namespace {
 
-// Distance (scene units) from a sensor (-I) at which rtrace starts its ray, clear of the sensor's surface.
+// Distance (scene units) from a sensor (-I) at which rtrace starts its ray, so that it clears the surface of
+// the sensor.
 constexpr double kSensorHeight = 1.1e-4;
 
 }  // namespace

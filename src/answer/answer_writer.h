@@ -14,15 +14,18 @@ namespace rsphere {
 
 // Appends records to a string of bytes: the quantities of the -o letters, in this order, in the output
 // format. With contributors (-Sp), the letters v e E C S h H u z Z (in ray mode v V r x) write the part due
-// to each contributor in turn. REQUIRES: the options are from parseOptions() and outlive the writer.
+// to each contributor in turn. REQUIRES: the options come from parseOptions() and exist as long as the
+// writer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const AnswerOptions& options) : options_(options), colors_(options.color) {}
 
-  // Writes a ray, or a direction of sphere mode (-Sd). `record`: number of the record from 0, for letter i.
+  // Writes a ray of ray mode, or a direction of sphere mode (-Sd). `record`: number of the input record from
+  // 0, for letter i.
   void write(std::string& bytes, const RayAnswer& answer, uint64_t record = 0) const;
 
-  // Writes a ray of a tree (-ot), after a TAB for each of its ancestors; nothing if -te or -ti excludes it.
+  // Writes a ray of a tree (-ot), after a TAB for each of its ancestors; nothing if -te or -ti excludes the
+  // ray.
   void writeBranch(std::string& bytes, const RayAnswer& answer, int ancestors) const;
 
   // Writes a point of sphere mode.
@@ -60,12 +63,14 @@ struct InputRay {
 };
 InputRay inputRay(const double* numbers, IrradianceAt irradiance, double samePlace = kSamePlace);
 
-// Whether a ray (six numbers) has no direction: as in rtrace, if its squared length is 0 in floating point.
+// Whether a record of ray mode (six numbers) has no direction: as in rtrace, if its squared length is zero in
+// floating point.
 inline bool hasNoDirection(std::span<const double> ray) {
   return ray[3] * ray[3] + ray[4] * ray[4] + ray[5] * ray[5] == 0;
 }
 
-// rtrace's answer to a record of direction zero: the preceding ray (zeros if none), as if it hit nothing.
+// rtrace's answer to a record whose direction is zero: the preceding ray (zeros if there is none), as if it
+// had hit nothing.
 RayAnswer bogusAnswer(const InputRay& before);
 
 }  // namespace rsphere

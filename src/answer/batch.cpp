@@ -52,7 +52,8 @@ struct Claim {
   std::exception_ptr error;  // error while reading the following record
 };
 
-// The answers to the records of a claim. Its thread appends answers, and other threads may take them.
+// The answers to the records of a claim. Its thread appends answers, and meanwhile another thread may take
+// those already appended.
 class alignas(64) InWork {
  public:
   // Begins a claim. Called by the thread that answers the claim.

@@ -11,7 +11,8 @@
 namespace rsphere {
 namespace {
 
-// The names of the -o letters of rays and directions in -defaults; none for c. Points: points/quantities.h.
+// The names of the -o letters of rays and directions in -defaults; rtrace has none for c. For letters of
+// points: points/quantities.h.
 struct LetterName {
   char letter;
   std::string_view name;

@@ -13,8 +13,9 @@ namespace rsphere {
 std::string versionLine();
 
 // The text printed by -version if the program is called by this name. Other programs run "rtrace -version" to
-// find RADIANCE's version, and take the first number, the first digit or the second word of the text. For
-// rtrace and rcontrib, the text therefore begins with the matched version of RADIANCE; rsphere's follows.
+// find RADIANCE's version, and take the first number, the first digit or the second word of the text. For the
+// names rtrace and rcontrib, the text therefore begins with the matched version of RADIANCE, followed by that
+// of rsphere.
 std::string versionAnswer(std::string_view program);
 
 // The command line: program, options and, if withScene, the scene. Words are quoted if this is necessary to

@@ -38,7 +38,8 @@ class Messages {
 
   void warning(std::string_view text) const;
 
-  // Writes why the program stops, and returns its exit status. Writes nothing for a closed output pipe.
+  // Writes the reason why the program stops, and returns its exit status. Writes nothing for a closed output
+  // pipe.
   int error(const rad::Error& error) const;
 
   // Writes a line without a class such as "warning", for progress reports.

@@ -6,7 +6,8 @@ namespace rsphere {
 namespace {
 
 // kStart: initial part of a picture. Its time does not predict the time of the rest, because its rays compute
-// the coarse solution. kEnough: the part after it that precedes reports of the remaining time.
+// the coarse solution. kEnough: the part after it that must be finished before the remaining time is
+// reported.
 constexpr double kStart = .1, kEnough = .05;
 
 }  // namespace

@@ -15,7 +15,8 @@ struct Terminals {
 };
 
 // The interval between reports on records (s); 0: no reports. asked: -t, if `given`. Without -t, reports are
-// written if messages go to a terminal, unless records are typed or answers shown there, too.
+// written if messages go to a terminal, unless records are typed or answers are shown on the terminal as
+// well.
 inline double reportSeconds(double asked, bool given, const Terminals& terminal) {
   const bool alone = terminal.messages && !terminal.input && !terminal.output;
   return given || !alone ? asked : kReportSeconds;

@@ -14,7 +14,8 @@
 
 namespace rsphere {
 
-// Collects data for the warnings at the end of a run from its answers, in any order. Thread-safe.
+// Collects data for the warnings at the end of a run from its answers. Thread-safe; the warnings do not
+// depend on the order of the answers.
 class RunSummary {
  public:
   // Add the answer at a point, at an eye (-Su), and for a sensor of -I.
@@ -57,7 +58,8 @@ class RunSummary {
   Some estimated_, missed_;  // -Sa: relative standard errors of brightness; and those above the accuracy
 };
 
-// Adds the sensors of `answer` to the summary. Returns `answer` itself for rays without -I. Keeps references.
+// Adds the sensors that `answer` answers to the summary. Returns `answer` itself for rays other than those of
+// -I. Keeps references.
 AnswerRecord withSensors(AnswerRecord answer, const AnswerOptions& options, const PreparedScene& prepared,
                          RunSummary& summary);
 

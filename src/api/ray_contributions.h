@@ -17,7 +17,8 @@ namespace rsphere::v1 {
 std::vector<TrackedModifier> trackedModifiers(const std::vector<std::string>& of, const Bins& bins);
 
 // Answers rays with contributions, as doubles: for each value of each column the mean over the samples and,
-// with several samples or an accuracy (-Sa), its error. Several threads of -n may call answer() at a time.
+// with more than one sample or an accuracy (-Sa), its standard error. Several threads of -n may call answer()
+// at a time.
 class RayContributions {
  public:
   // samples: at least 1. Keeps references to transport and options.
@@ -26,7 +27,8 @@ class RayContributions {
   RayContributions(const RayContributions&) = delete;
   RayContributions& operator=(const RayContributions&) = delete;
 
-  // summary: gets the error of the sum, with an accuracy. checkStop: called while such a ray is computed.
+  // summary: gets the error of the sum of the contributions, with an accuracy. checkStop: called while a ray
+  // with an accuracy is computed.
   void answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
               const std::function<void()>& checkStop = {});
   bool hasErrors() const { return samples_ > 1 || estimator_; }

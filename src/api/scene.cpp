@@ -260,7 +260,8 @@ class Call {
     std::string bytes;
     for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
       for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
-        // Records before a faulty one are still answered, so that the reported error is always the first.
+        // Records before a faulty one are still answered, so that the reported error is always the first,
+        // regardless of threads.
         if (i > faultAt_) return;
         try {
           if (answerer_.stop) throw Stopped();
@@ -403,7 +404,8 @@ std::vector<Column> prepareColumns(const std::vector<Column>& all, const rsphere
   return columns;
 }
 
-// Splits a record of AnswerWriter in float64: numbers are copied, names end with a TAB. Returns its end.
+// Splits a record written by AnswerWriter as float64: numbers are copied, names end with a TAB. Returns the
+// end of the record.
 const char* takeApart(const std::string& bytes, const std::vector<Column>& columns, size_t record) {
   const char* at = bytes.data();
   for (const Column& column : columns) {

@@ -61,7 +61,8 @@ struct Bands::Spares {
       --count[kind];
     } else {
       static thread_local Closer closer;
-      closer.open = true;  // constructs the thread's object, so that it is destroyed when the thread ends
+      closer.open = true;  // this access constructs the thread's object, so that it is destroyed when the
+                           // thread ends
       if (kind < kLargeRoom) room = kind == 0 ? kOnePart : kUsualRoom;
       block = static_cast<Block*>(::operator new(sizeof(Block) + room * sizeof(double)));
       block->room = static_cast<uint32_t>(room);

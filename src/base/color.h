@@ -1,5 +1,6 @@
 #pragma once
-// Colors: red, green and blue, and bands of a spectrum (-cs above 3) or parts due to contributors (-Sp).
+// Colors: red, green and blue, and in addition the bands of a spectrum (-cs above 3), or the parts due to
+// contributors (-Sp).
 #include <Imath/ImathVec.h>
 
 #include <algorithm>

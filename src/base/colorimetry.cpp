@@ -20,7 +20,8 @@ Bands bandsOf(const Spectrum& spectrum, const SpectralSampling& sampling) {
   const double longest = std::max(spectrum.first, spectrum.last);
   const double step = std::abs(spectrum.last - spectrum.first) / static_cast<double>(count);
   const double width = sampling.width();
-  // Positions are distances (nm) from the bands' longest wavelength, so that spectrum and bands ascend.
+  // Positions are distances (nm) from the longest wavelength of the bands. In this order, both the values of
+  // the spectrum and the bands ascend.
   const double offset = sampling.longest - longest;
   for (size_t i = 0; i < count; ++i) {
     const double value = spectrum.values[falls ? i : count - 1 - i];

@@ -8,7 +8,8 @@
 
 namespace rsphere {
 
-// A spectrum at wavelengths (nm; at least two, ascending or descending): linear between them, 0 outside.
+// A spectrum given at wavelengths (nm; at least two, in ascending or descending order): linear between them,
+// 0 outside.
 struct SpectralCurve {
   std::span<const double> wavelengths, values;  // of the same length
 };

@@ -5,7 +5,8 @@
 
 namespace rsphere {
 
-// A reference to a callable, valid only during the call that it is passed to. Making one copies nothing.
+// A reference to a callable, valid only during the call that it is passed to. Making one copies and allocates
+// nothing.
 template <class Signature>
 class FunctionRef;
 

@@ -29,7 +29,8 @@ double melanopic(const Spectrum& spectrum);
 enum class Receptor : uint8_t { sCone, mCone, lCone, rod, melanopsin };
 double seenBy(Receptor receptor, const Spectrum& spectrum);
 
-// X, Y, Z as RADIANCE 6.1 computes them, from limits of bins in whole nanometers (spectral_sampling.h).
+// X, Y, Z as RADIANCE 6.1 computes them, with the limits of the bins rounded down to whole nanometers: see
+// BandWeights (spectral_sampling.h).
 V3d tristimulusInRadiance(const Spectrum& spectrum);
 
 }  // namespace rsphere

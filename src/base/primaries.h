@@ -17,7 +17,8 @@ using Primaries = std::array<double, 8>;
 inline constexpr Primaries kStandardPrimaries = {.640, .330, .290, .600, .150, .060, 1 / 3., 1 / 3.};
 
 // The color space of sharpened sensors (Finlayson and Suesstrunk, CIC 2000), with RADIANCE's digits, and its
-// inverse: xyz * kSharpFromXyz. Their product differs from the unit matrix by 9e-5, as in rtrace.
+// inverse: xyz * kSharpFromXyz. Their product differs from the unit matrix by 9e-5, an error that rtrace's
+// colors share.
 inline const M33d kSharpFromXyz(1.2694, -.8364, .0297, -.0988, 1.8006, -.0315, -.1706, .0357, 1.0018);
 inline const M33d kXyzFromSharp(.8156, .3791, -.0123, .0472, .5769, .0167, .1372, .0440, .9955);
 

@@ -1,5 +1,6 @@
 #pragma once
-// The quantities of light transport as types: an irradiance where a radiance is expected does not compile.
+// The quantities of light transport as types: passing an irradiance or a coefficient to code that expects a
+// radiance does not compile.
 //
 // Importance is transported as Radiance: goals emit importance 1 like light sources emit radiance, and the
 // same paths transport both with the same coefficients. Only those of refraction may differ: see scatter() in

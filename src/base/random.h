@@ -5,7 +5,8 @@
 
 namespace rsphere {
 
-// Mixes 64 bits: each input bit affects each output bit (SplitMix64's finalizer; Steele, Lea, Flood 2014).
+// Mixes 64 bits so that every input bit affects every output bit (SplitMix64's finalizer; Steele,
+// Lea, Flood 2014).
 inline uint64_t mixBits(uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

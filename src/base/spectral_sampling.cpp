@@ -11,7 +11,8 @@
 namespace rsphere {
 namespace {
 
-// Wavelengths (nm), as in RADIANCE: limits of red, green and blue, and peaks of the red and blue responses.
+// Wavelengths (nm), as in RADIANCE: limits between red, green and blue, and peaks of the red and blue
+// responses.
 constexpr double kRedFrom = 588, kGreenFrom = 480;
 constexpr double kRedPeak = 607, kBluePeak = 469;
 

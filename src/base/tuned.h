@@ -22,7 +22,8 @@
 // or 2026-11-22.txt if it was not measured again).
 //
 // RSPHERE_DERIVED declares a constant whose value is derived or insensitive, by which tests/bench/mechanisms
-// switches a mechanism off, and which tests/bench/sensitivity does not vary. Others of these kinds are plain.
+// switches a mechanism off, and which tests/bench/sensitivity does not vary. Other constants of these kinds
+// are plain.
 //
 // RSPHERE_TUNED_ROOM also declares kNameRoom, a bound for arrays of up to kName elements. It equals kName,
 // but is larger in the build for the benchmark.

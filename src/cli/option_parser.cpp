@@ -146,7 +146,8 @@ int64_t integerWord(const OptionEntry& entry, const std::string& word) {
   return *n;
 }
 
-// Whether a word cannot be a value of the option: it is blank, or an option where a number is expected.
+// Whether this word cannot be a value of the option: the word is blank, or it is an option where a number is
+// expected.
 bool isMissing(const OptionEntry& entry, const std::string& word) {
   if (!isWord(word)) return true;
   const bool takesNumbers =

@@ -24,7 +24,8 @@ constexpr Range kFraction{0, 1};
 constexpr Range kCount{0, kLargestInt};
 
 // -ae and -aE name modifiers without indirect light; -ai and -aI name the only modifiers with it. -te, -tE,
-// -ti and -tI include or exclude modifiers in ray trees. Each kind discards earlier names of the other.
+// -ti and -tI include or exclude modifiers in ray trees. An option of one kind discards earlier names of the
+// other kind.
 void setModifiers(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
   const bool ambient = entry.name[1] == 'a', exclude = entry.name[2] == 'e' || entry.name[2] == 'E';
   auto& excluded = ambient ? options.ray.ambientExcluded : options.treeExcluded;
@@ -103,7 +104,8 @@ void setRotation(Options& options, const OptionEntry& entry, OwnWords words, std
   options.sphere.rotation = options.ray.rotation = static_cast<uint64_t>(*n);
 }
 
-// As in rtrace, the word after -e is an expression if it contains '=' or ':'; otherwise an error file.
+// As in rtrace, the word after -e is an expression if it contains '=' or ':'; otherwise it is the name of an
+// error file.
 void setErrorFile(Options& options, const OptionEntry&, OwnWords words, std::string_view) {
   if (words[0].find_first_of("=:") != std::string::npos)
     options.ray.definitions.push_back({false, words[0]});
@@ -284,7 +286,8 @@ constexpr std::string_view kPhotons = "photon maps are not read; -ab N -aa 0 com
 constexpr std::string_view kNoTrees = "points have no ray trees";
 constexpr std::string_view kPersist = "to keep a program waiting for records, use a pipe and -x 1";
 
-// The order is that of rtrace's -defaults; its options that -defaults does not print follow, from -ap to -t.
+// The order is that of rtrace's -defaults. Options of rtrace that its -defaults does not print follow, from
+// -ap to -t.
 constexpr OptionEntry kOptions[] = {
     {{"-w", "", "warning messages on|warning messages off", Group::program,
       +[](O& o) -> bool& { return o.messages.warnings; }}},

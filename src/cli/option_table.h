@@ -54,7 +54,8 @@ using RealValue = double& (*)(Options&);
 using ColorValue = Color& (*)(Options&);
 using WordValue = std::string& (*)(Options&);
 using WordsValue = std::vector<std::string>& (*)(Options&);  // each use appends a word
-// For options of other types. `words` follow the name; `rest` is the part of the first word after the name.
+// For options of other types. `words` are the words after the name; `rest` is the part of the first word that
+// follows the name.
 struct Custom {
   void (*set)(Options& options, const OptionEntry& entry, std::span<const std::string> words,
               std::string_view rest);
@@ -92,7 +93,8 @@ struct OptionExtras {
   std::string_view reason{};  // why it is refused
   bool glued = false;         // its value follows without a blank: -fio -ospec
   bool alsoGlued = false;     // its value may follow without a blank: -te mod, -temod
-  // Whether a switch is in effect, as -help says, if not its value, which -defaults prints like rtrace.
+  // Whether a switch is in effect, as -help and the manual say, if that is not its value: like rtrace,
+  // -defaults prints the value.
   bool (*inEffect)(const Options&) = nullptr;
   // The line of -defaults without its remark, if it does not follow from the type; "" for no line.
   std::string (*line)(const Options&) = nullptr;
@@ -111,19 +113,23 @@ struct OptionEntry : OptionForm, OptionExtras {
 // All options in the order of -defaults: those of rtrace in rtrace's order, then those of rsphere.
 std::span<const OptionEntry> optionTable();
 
+// Whether the option has an effect in the mode.
 inline bool worksIn(const OptionEntry& entry, bool sphereMode) {
   return entry.mode == Mode::both || (entry.mode == Mode::points) == sphereMode;
 }
 
+// The number of words that follow the option.
 int arity(const OptionEntry& entry);
 
-// The values before the first option: in ray mode rtrace's; in sphere mode those for thousands of directions.
+// The values before the first option: in ray mode rtrace's defaults; in sphere mode defaults for means of
+// thousands of directions.
 Options modeDefaults(bool sphereMode);
 
 // Sets the defaults of rays whose standard errors are computed: nothing is left out but bounces beyond -ab.
 // reachAccuracy: these are not left out, either (-Sa).
 void setErrorDefaults(RayOptions& ray, bool reachAccuracy);
 
+// The defaults for the rays of pictures (-Si).
 RayOptions pictureDefaults();
 
 // Reads a command line; words[0] is the name of the program.
@@ -170,6 +176,7 @@ struct UsedOption {
 std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
                                        Options& options);
 
+// The texts of -help and -defaults of a companion.
 std::string companionHelp(const Companion& companion, Options& options);
 std::string companionDefaults(const Companion& companion, Options& options);
 
@@ -177,7 +184,8 @@ std::string companionDefaults(const Companion& companion, Options& options);
 // begin with '#', it can be read by @file. takes: Companion::takes.
 std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&) = nullptr);
 
-// The text of "-help all", a line for each option, and of -help, for the twelve that most people need.
+// The text of "-help all": one line for each option. And that of -help: a line for each of the twelve options
+// of the mode that most people need.
 std::string helpText(const Options& options);
 std::string usualHelp(const Options& options);
 

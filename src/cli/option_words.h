@@ -10,7 +10,8 @@ struct OptionEntry;
 // Throws rtrace's error for a word of the command line, with a reason and a reference to -help.
 [[noreturn]] void commandLineError(std::string_view at, std::string_view why);
 
-// Throw commandLineError() for a word that should be a number. range: such as " from 1 to 9", or nothing.
+// Throw commandLineError() for a word that should be a number or a whole number. range: the accepted numbers,
+// such as " from 1 to 9", or nothing.
 [[noreturn]] void notReal(std::string_view option, std::string_view word, std::string_view range = {});
 [[noreturn]] void notInteger(std::string_view option, std::string_view word, std::string_view range = {});
 

@@ -80,6 +80,7 @@ class ContributionTracer {
 
   int components() const { return tracked_.components(); }
 
+  // That ray.
   const TracedRay& ray() const { return ray_; }
 
  private:

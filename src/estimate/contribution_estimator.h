@@ -22,7 +22,8 @@ class ContributionEstimator {
 
   struct Estimate {
     ContributionList means;
-    std::vector<double> variances;  // of means.values(), in order; (W/sr/m2)^2, (W/m2)^2, or no unit
+    std::vector<double> variances;  // of means.values(), in their order; (W/sr/m2)^2, (W/m2)^2, or without
+                                    // a unit for coefficients
     RayEstimator::Estimate sum;     // of all contributions
   };
   // Parameters: PathTracer::trace(). checkStop is called between rounds; its exceptions pass.

@@ -39,7 +39,8 @@ void shareOut(const Irradiance& excess, std::vector<DirectionSample>& samples) {
   for (DirectionSample& s : samples) s.value.color += scale * s.glanced.color + shift;
 }
 
-// Sets radiances to 0 that a negative excess made negative, and reduces the others to keep the integral.
+// Sets radiances to 0 that a negative excess has made negative, and reduces the others so that the integral
+// does not change.
 void keepPositive(std::vector<DirectionSample>& samples) {
   Color sum, positive;
   for (const DirectionSample& s : samples) {

@@ -1,5 +1,6 @@
 #pragma once
-// Computes the quantities of sphere mode at a point from traced directions, which -Sw chooses and weights.
+// Computes the quantities of sphere mode at a point from traced directions. -Sw is the strategy that chooses
+// and weights them.
 //
 // Source: Costa, Sousa, Parracho, Cruz, "A New Technique for Spherical Radiance Calculation" (base
 // directions; dynamic directions to special objects; weights by spherical Voronoi cells). The strategies:
@@ -61,8 +62,9 @@ class SphereEstimator {
   // point after tuning::DiffuseGlances::kPools sets.
   PointAnswer estimate(const V3d& point, Workspace& workspace) const;
 
-  // Traces one set of directions, whose integrals estimate those at the point; estimate() averages them over
-  // sets. Sets with different numbers below tuning::DiffuseGlances::kPools are independent of each other.
+  // Traces one set of directions. The integrals of one set estimate the integrals at the point; estimate()
+  // averages them over sets. Sets with different numbers below tuning::DiffuseGlances::kPools are independent
+  // of each other.
   SampledSet sampleSet(const SetAtPoint& set, Workspace& workspace) const {
     return usual_.strategy->sample(set, workspace.tracer, workspace.voronoi_);
   }

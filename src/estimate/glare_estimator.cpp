@@ -23,7 +23,8 @@ constexpr double kPeak = 50000;     // cd/m2
 // indirect light of other directions then need not be separated, which takes most of the time.
 constexpr double kAboveAll = 1e10;  // cd/m2
 
-// Offsets of seeds: rays traced again, and rays to the task, are independent of rays traced first.
+// Offsets of seeds: rays that are traced again, and rays to the task, are independent of rays that are traced
+// first.
 constexpr uint64_t kAgain = 0x676c617265, kTask = 0x7461736b;  // "glare", "task"
 
 SphereOptions withDirections(SphereOptions options) {
@@ -160,7 +161,8 @@ GlareSource GlareEstimator::Source::answer(const Gaze& gaze) const {
   return source;
 }
 
-// Sets `smooth` of each look: its indirect light is fitted to surrounding looks that see the same surface.
+// Sets `smooth` of each look, replacing its indirect light by a fit to the surrounding looks that see the
+// same surface.
 void GlareEstimator::View::smoothIndirect() {
   std::map<SurfaceId, std::vector<Look*>> bySurface;
   for (Look& look : looks) {
@@ -276,7 +278,8 @@ void GlareEstimator::addLamps(const View& view, Sources& sources) const {
   for (const auto& [surface, lamp] : lamps) sources.push_back(lamp);
 }
 
-// Adds the sources formed by directions above the threshold. Peaks become separate sources.
+// Adds the sources formed by directions above the threshold. Peaks become sources separate from their
+// surroundings.
 void GlareEstimator::addBright(const View& view, double threshold, Sources& sources) const {
   std::array<std::vector<const Look*>, 2> bright;
   for (const Look& look : view.looks)

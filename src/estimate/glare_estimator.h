@@ -1,5 +1,6 @@
 #pragma once
-// Glare at an eye: the light that it receives from all directions, and the part from glare sources.
+// Glare at an eye: the light that it receives from all directions, and the part that comes from glare
+// sources.
 //
 // - Visible light sources of the scene, except distant ones: each is a glare source, whatever its luminance
 //   (CIE 117). Their solid angles are known, and shadow rays find the visible part (seen_sources.h).

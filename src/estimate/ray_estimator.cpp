@@ -122,7 +122,8 @@ class Gathers {
   uint64_t traced_ = 0;
 };
 
-// A small fraction of the average radiance that surfaces see (W/sr/m2), or of the irradiance that it causes.
+// A small fraction of the average radiance that the surfaces of the scene see (W/sr/m2), or of the irradiance
+// that it causes.
 double usualFloor(const Transport& transport) {
   RayOptions few = transport.prepared().options();  // a few paths are enough
   few.ambientAccuracy = few.ambientSuperSamples = 0;

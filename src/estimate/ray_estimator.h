@@ -35,7 +35,8 @@ class RayEstimator {
     // fraction of the average radiance in view of the scene's surfaces.
     double floor = -1;
   };
-  // Keeps a reference to the transport. REQUIRES: with -aa above 0, RayOptions::solutions is kSolutions.
+  // Keeps a reference to the transport. REQUIRES that with -aa above 0, its RayOptions::solutions is
+  // kSolutions.
   RayEstimator(const Transport& transport, const Options& options);
 
   // The rays of patches (RayOptions::raysForPatches) with which an accuracy can be reached.
@@ -59,7 +60,8 @@ class RayEstimator {
                     const std::function<void()>& checkStop = {}) const;
 
   // Traces the ray once, for a set (below kSets), with this number of rays in the gather of its first diffuse
-  // surface and a seed of its own. The sets of a half (below kSets / 2, or not) have as many rays each.
+  // surface and a seed of its own. The sets of a half, those below kSets / 2 or the others, have as many rays
+  // each.
   using Gather = FunctionRef<TracedRay(size_t set, int rays, uint64_t seed)>;
   // The same for any quantity of the ray: `gather` puts it into TracedRay::value.
   Estimate estimate(const Gather& gather, uint64_t seed, const std::function<void()>& checkStop) const;

@@ -143,7 +143,8 @@ SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const 
 void SilhouetteWeights::chooseDirections(const SetAtPoint& set, Plan& plan) const {
   plan.directions = set.turned(base_.directions);
   Random random(seedOf(set, Stream::dynamicDirections));
-  // Accumulating expected numbers of directions gives each target a whole number with an exact mean.
+  // Accumulating the expected numbers of directions gives each target a whole number whose expected value is
+  // exact.
   double due = random.uniform();
   for (const Target& target : plan.targets.all()) {
     due += target.expected;

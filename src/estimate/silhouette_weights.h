@@ -73,7 +73,8 @@ class SilhouetteWeights : public SamplingStrategy {
   // Stage 4: SampledSet::excess.
   Moments glancedBeside(const View& view, std::span<const DirectionSample> others) const;
 
-  // Stage 5: the variance due to directions of both kinds, without that of glances. to: see error_estimate.h.
+  // Stage 5: the variance due to directions of both kinds, without the variance of glances. to: see
+  // error_estimate.h.
   Variance varianceOf(std::span<const DirectionSample> others, std::span<const Plan::Run> runs,
                       std::span<const SeenSources::Sample> toImages, KernelVariances* to) const;
 

@@ -68,7 +68,8 @@ struct Dark {
 
 // Glare at an eye (glare_estimator.cpp).
 struct Glare {
-  // Rays to the task. Its luminance is then known within 6% if single values vary as much as their mean.
+  // Number of rays to the task. Its luminance is then known within 6% if single values vary as much as their
+  // mean.
   static constexpr size_t kTaskRays = 256;
 };
 

@@ -72,8 +72,9 @@ struct Sites {
   V2f middle{.5, .5};  // their mean, relative to the sides of the patch
 };
 
-// Sets the middle and the weights of sites for the linear function that fits their light best (least
-// squares); without slopes if they are nearly on a line. at: their places, relative to the patch's sides.
+// Sets the middle and the weights of sites so that they give the linear function that fits their light best
+// (least squares); without slopes if they lie nearly on a line. at: their places, relative to the sides of
+// the patch.
 void fitLinear(const std::vector<V2f>& at, Sites& sites) {
   if (at.empty()) return;
   const auto count = static_cast<float>(at.size());
@@ -338,7 +339,8 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   return {};
 }
 
-// Patches that contribute more to other surfaces get more rays, because their noise matters more.
+// Patches that contribute more to the light of other surfaces get more rays, because their noise matters
+// more.
 double CoarseSolution::raysOf(const Frame& frame) const {
   const double part = std::clamp(frame.share / effort_.usualShare, effort_.fewer, effort_.more);
   return std::clamp(effort_.usual * part, effort_.least, OfPatches::kMostRays);

@@ -3,8 +3,9 @@
 //
 // Diffuse surfaces are divided into patches, which depend only on the scene and the options. Each patch
 // gathers once: it sends rays from places all over its area, which end at other patches or in light that
-// depends on no patch. The result is stored as links, products of form factors and reflectances. Links give
-// the light after any number of bounces without more rays. Patches are made and linked on demand.
+// depends on no patch. The result is stored as links, products of form factors and reflectances. The links
+// give the light after any number of bounces without tracing more rays. Patches are made and linked on
+// demand.
 //
 // Source: final gathering over a radiosity solution (Smits, "Efficient global illumination for radiosity
 // environments", 1994; Ward's "two-pass" reasoning, 1988). Differences: the form factors are Monte Carlo

@@ -15,7 +15,8 @@ struct FieldOptions {
   // Patches of the coarse solution that are only seen by other patches are enlarged by this number of levels.
   // Each level doubles the side of a patch.
   int coarserLinks = 0;
-  // Whether patches are also used at the first diffuse surface, where their errors affect the answer.
+  // Whether patches are also used at the first diffuse surface, where their errors directly affect the
+  // answer.
   bool patchesAtFirst = false;
   Radiance ambientValue;  // -av
   bool spectral = false;  // a spectral run: light has bands

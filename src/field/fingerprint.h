@@ -8,7 +8,8 @@
 
 namespace rsphere {
 
-// A 64-bit hash of a sequence of values and their order, equal on all machines of the same byte order.
+// A 64-bit hash of a sequence of values and their order. It is equal on all machines that have the same byte
+// order.
 class Fingerprint {
  public:
   void add(uint64_t x) { value_ = mixBits(value_ ^ x); }

@@ -26,7 +26,8 @@ struct GatherSite {
 };
 
 // Mean distances of the surfaces that are seen from a site (world units), weighted by projected solid angle.
-// A direction that hits nothing is infinitely far in the harmonic mean, and ignored in the root mean square.
+// A direction that hits nothing has infinite distance in the harmonic mean, and is ignored in the root mean
+// square.
 struct Surroundings {
   double harmonicMean = 0;
   double rootMeanSquare = 0;

@@ -16,7 +16,8 @@
 //
 // Memory: if a limit is set (-Sm), the first thread that finds the memory full replaces it by an empty one.
 // The old memory is freed when the last thread has stopped reading it. Sites that are needed again are
-// computed again, with bit-identical results. A thread reads until the end of a primary ray at most.
+// computed again, with bit-identical results. A thread stops reading at the end of each primary ray at the
+// latest.
 #include <memory>
 
 #include "field/ambient_file.h"
@@ -53,7 +54,8 @@ class IrradianceField {
   // The number of sites made, including those that were discarded and made again.
   size_t sitesMade() const;
 
-  // Bytes of all memories not yet freed. They exceed the limit by at most what current queries need.
+  // Bytes of all memories that have not been freed. They exceed the limit by at most the amount that current
+  // queries need.
   size_t bytes() const;
 
  private:

@@ -18,12 +18,14 @@ struct SitesAround {
   double served = 0;  // sum of the weights; 1 if all four sites see the place
 
   // The interpolation error expected between the sites, relative to the tolerance (a relative error). Below 1
-  // the light is smooth enough. The largest of three: the change of the gradients (exact for a parabola), the
-  // part of the differences that they do not explain (shadow edges), and the differences.
+  // the light is smooth enough. It is the largest of three measures: the change of the gradients (exact for a
+  // parabola), the part of the differences that the gradients do not explain (shadow edges), and the
+  // differences themselves.
   double roughness(double tolerance) const;
 
   // The light at a place (world coordinates): interpolated, and extrapolated by the mean gradient if the
-  // sites that see the place do not surround it. extrapolationError: expected, relative.
+  // sites that see the place do not surround it. extrapolationError: the expected relative error of the
+  // extrapolation.
   GatheredLight at(const V3d& place, double& extrapolationError) const;
 };
 

@@ -62,7 +62,8 @@ class SurfaceChart {
 
   double u() const { return u_; }  // of the place
   double v() const { return v_; }
-  // The surface's longer side; the radius of a sphere; the larger radius of a cone; infinite for ofPlane().
+  // The longer side of the surface; the radius of a sphere; the larger radius of a cone; infinite for
+  // ofPlane().
   double extent() const;
   // The shorter side of a bounded flat surface; infinite otherwise.
   double shorterSide() const { return width_ > 0 ? std::min(width_, height_) : HUGE_VAL; }
@@ -71,7 +72,8 @@ class SurfaceChart {
   void divideAcross(int parts);
   bool isCurved() const { return ball_ || cone_; }
   // A site at a relative position, from 0 to 1 in each coordinate of the chart; for a sphere, a chart covers
-  // a sixth of it. Empty if that point is not on the surface. REQUIRES a chart not from ofPlane().
+  // a sixth of it. Empty if that point does not lie on the surface. REQUIRES a chart that is not from
+  // ofPlane().
   std::optional<GatherSite> siteWithin(const CellGrid& grid, const Imath::V2d& shares) const;
   bool isShared() const { return isShared_; }  // by all surfaces in the plane
 
@@ -85,7 +87,8 @@ class SurfaceChart {
   // A site at a relative position in a cell, from 0 to 1 in each coordinate, just above the surface. Empty if
   // that point does not lie on the surface.
   std::optional<GatherSite> siteIn(const CellGrid& grid, const CellKey& key, const Imath::V2d& shares) const;
-  // The site of a cell, just above the surface. Empty if no point tried in the cell lies on it.
+  // The site of a cell, just above the surface. Empty if none of the points tried in the cell lies on the
+  // surface.
   std::optional<GatherSite> site(const CellGrid& grid, const CellKey& key) const;
 
  private:

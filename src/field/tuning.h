@@ -21,7 +21,8 @@ struct IrradianceField {
   // sees; where it is smaller than the scene, it takes the place of the scene's size in RADIANCE's -ar.
   // Chosen by the error in thin gaps and the number of gathers, in rooms on a ground of 0 to 5 km: with 4,
   // the light between louvres is 3% too dark; with 2.5, furnished rooms need 3% more gathers.
-  // Also: the widest cells' side is -aa times kRoom times their harmonic mean distance. Insensitive.
+  // Also: the side of the widest cells is -aa times kRoom times the harmonic mean distance of their
+  // surroundings. Insensitive.
   RSPHERE_TUNED(IrradianceField, double, kRoom, 3.2);
   // Upper bound on the finest spacing, relative to the height of the gap that contains a place (the distance
   // to the first surface along its normal). Measured: with 1, 2.6 instead of .7% of the places between
@@ -42,12 +43,14 @@ struct IrradianceField {
 // Interpolation between the sites around a place (site_interpolation.cpp). Its error is predicted from the
 // change of the gradient between two sites, and from their difference, which shows edges of shadows.
 struct SiteInterpolation {
-  // Differences of sites below this number of standard errors are noise. Chosen by experiment. Insensitive.
+  // Differences between sites below this number of standard errors are treated as noise. Chosen by
+  // experiment. Insensitive.
   static constexpr double kChance = .7;
   // Divisor of the difference of the light of two sites, and of the part of it that the gradients do not
   // predict. Chosen by experiment. Insensitive.
   static constexpr double kByStep = 5;
-  // Factor on the gradients of sites. With half of each, interpolation is exact for quadratic functions.
+  // Factor on the gradients of the sites. With half of each gradient, interpolation is exact for quadratic
+  // functions.
   static constexpr float kSlopes = .5F;
   // Divisor of the change of the gradient along the segment between two sites. For a quadratic function f
   // that change is f'' h^2, and the error of a linear interpolation is at most f'' h^2 / 8.
@@ -94,8 +97,9 @@ struct CoarseSolution {
   // number of levels, unless patches are used at the first bounce: 2 would then make the errors of spherical
   // means three times as large (measured).
   static constexpr int kCoarserLinksByLamps = 2;
-  // Factor on the rays of a patch, in the scenes of kCoarserLinksByLamps. Measured: with 1, pictures take 1.3
-  // to 1.4 times as long for equal errors; with .25, sensors in a room with gaps have 1.4 times the error.
+  // Factor on the rays of a patch, in the scenes of kCoarserLinksByLamps. Measured: with 1, pictures take
+  // 1.3 to 1.4 times the time for the same errors; with .25, sensors in a room with gaps have 1.4 times the
+  // error.
   static constexpr double kFewerByLamps = .5;
   // The smallest patches of a surface are chosen as if its extent were at most this fraction of the scene's
   // longest side, because rooms on a wide ground are much smaller than the ground. Chosen by experiment.
@@ -130,7 +134,8 @@ struct CoarseSolution {
   // Measured: with 2.5, a sunlit classroom has 15% more noise; with 8, it takes a sixth more time for equal
   // noise.
   // Also bounds the growth of the usual number by daylight, which below -aa .1 is inversely proportional to
-  // -aa, because all places that see a patch share its noise. Where that ends, patches stay as large.
+  // -aa, because all places that see a patch share its noise. Where that ends, patches do not become smaller
+  // either.
   RSPHERE_TUNED(CoarseSolution, double, kMoreRays, 4);
   // Patches with at least this number of rays send them from 16 places, others from 4. Measured below north
   // lights at -aa .05: with 4 places for all, the noise of sensors is .65 instead of .47% by sun. Places must

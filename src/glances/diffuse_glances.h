@@ -1,9 +1,12 @@
 #pragma once
-// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling (vertex_light.h):
-// - glances: evenly spread rays to the nearest hit, without further bounces; many for each traced direction,
+// The light of the plain diffuse surfaces in view of a point, by bidirectional sampling
+// (light_paths/vertex_light.h):
+// - glances: evenly spread rays that end at the nearest hit, without further bounces; many for each traced
+//   direction,
 // - joins: connections, which are shadow rays from the point to light vertices, sent more often to vertices
 //   that would contribute more.
-// Traced directions find the remaining light: visible sources, sharp reflections, sampled rough highlights.
+// Traced directions find the remaining light: of sources in view, sharp reflections, and sampled rough
+// highlights.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,7 +22,8 @@ namespace rsphere {
 // Shared by all threads.
 class DiffuseGlances {
  public:
-  // Null if bidirectional sampling would miss some light (PlainSurfaces::obstacle()). Keeps references.
+  // Null if bidirectional sampling would miss some of the light (PlainSurfaces::obstacle()). Keeps
+  // references.
   static std::unique_ptr<const DiffuseGlances> make(const PreparedScene& prepared,
                                                     const SphereOptions& options, const BaseSet& base);
   // make() for rooms that daylight enters through openings, for points for which suitsDaylight() is true.
@@ -49,7 +53,8 @@ class DiffuseGlances {
   // An estimate of the light of at() along one direction (W/sr/m2), by one glance. number: of the direction.
   Radiance along(const SetAtPoint& set, const V3d& direction, size_t number, PathTracer& tracer) const;
 
-  // The light vertices of a set, for surfaces that its traced directions see by reflection or transmission.
+  // The light vertices of a set, for surfaces that its traced directions see in reflections or through panes
+  // and other transmitting surfaces.
   std::shared_ptr<const VertexLight> light(const SetAtPoint& set) const {
     return lights_.at(set.point(), set.number());
   }

@@ -25,7 +25,8 @@ double LightPools::powerOf(std::span<const uint32_t> sources) const {
   return sum;
 }
 
-// The sources at which most paths for a point should start; empty if the common vertices suffice.
+// The sources from which most paths for a point should start; empty if the vertices common to all places
+// suffice.
 std::span<const uint32_t> LightPools::preferredAt(const V3d& point) const {
   const HiddenBoxes& hidden = prepared_.lights().hidden();
   const std::span<const uint32_t> seen = hidden.notHiddenFrom(point);
@@ -50,7 +51,8 @@ std::shared_ptr<const VertexLight> LightPools::pool(std::span<const uint32_t> pr
     if (!known) known = std::make_shared<Pool>();
     found = known;
     found->asked = ++made_.asked;
-    // The least recently requested pool is removed. Points that still use it keep it until they are finished.
+    // The pool that has not been requested for the longest time is removed. Points that still use it keep it
+    // until they are finished.
     if (made_.pools.size() > made_.most)
       made_.pools.erase(
           std::ranges::min_element(made_.pools, {}, [](const auto& p) { return p.second->asked; }));

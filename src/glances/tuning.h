@@ -27,9 +27,11 @@ struct DiffuseGlances {
   // at a dark point.
   static constexpr size_t kPools = 8;
   // The number of light paths, as a multiple of the number of base directions (-Sn). They are traced once,
-  // and used at all points. With 256, the error is 10% smaller, and the start takes .4 instead of .1 s.
+  // and used at all points. With 256, the error is 10% smaller, and the program takes .4 s to start instead
+  // of .1 s.
   RSPHERE_TUNED(DiffuseGlances, double, kPathsPerDirection, 64);
-  // The least number of light paths in a batch: if paths vary as much as their mean, it is known within 3%.
+  // The least number of light paths in a batch: if single paths vary as much as their mean, that of a batch
+  // is known within 3%.
   static constexpr size_t kLeastPaths = 1024;
   // kPathsPerDirection by daylight through openings, where a path costs twice as much. With a quarter, the
   // error is 10 to 40% larger, and the program starts in .14 instead of .2 s.

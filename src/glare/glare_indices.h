@@ -26,7 +26,8 @@ struct SeenGlare {
 };
 
 // Unified glare rating. Source: CIE 117-1995, 8 lg(.25 / Lb sum(L^2 omega / P^2)). background: luminance Lb.
-// sum: of the weights of the sources. As in evalglare, 0 without sources. Infinite with sources on black.
+// sum: of the weights of the sources. As in evalglare, 0 if there is no source. Infinite if there are sources
+// and the background is black.
 double unifiedGlareRating(double background, double sum);
 
 // Daylight glare probability, 0 to 1: the fraction of people who are disturbed. Source: Wienold and

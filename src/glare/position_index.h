@@ -1,5 +1,6 @@
 #pragma once
-// The position of a glare source in the field of view, and how much less it disturbs than on the gaze.
+// The position of a glare source in the field of view, and how much less disturbing it is there than on the
+// line of sight.
 #include <Imath/ImathVec.h>
 
 #include <optional>

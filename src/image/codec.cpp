@@ -51,6 +51,7 @@ const ImageCodec* imageCodec() {
 }  // namespace rsphere
 
 #ifdef __SANITIZE_ADDRESS__
-// Called by the leak sanitizer at the end. GCC 12's may crash in a program that has loaded OpenImageIO.
+// Called by the leak sanitizer at the end of the program. GCC 12's may crash in a program that has loaded
+// OpenImageIO.
 extern "C" [[gnu::visibility("default")]] int __lsan_is_turned_off() { return rsphere::loaded; }
 #endif

@@ -27,7 +27,8 @@ constexpr std::string_view kPng = ".png";
   throw rad::Error(fmt::format("cannot write picture \"{}\": {}", name, why), rad::Status::system);
 }
 
-// A new file with a unique name beside a target. The destructor removes it, unless it replaced the target.
+// A new file with a unique name in the folder of a target file. The destructor removes it, unless it has
+// replaced the target.
 class NewFile {
  public:
   explicit NewFile(std::string target) : target_(std::move(target)) {
@@ -60,7 +61,8 @@ class NewFile {
   }
 
  private:
-  // Cap on the names tried for the temporary file. Few are taken: each thread writes one picture at a time.
+  // Cap on the names that are tried for the temporary file. Few are taken, because each thread writes one
+  // picture at a time.
   static constexpr int kMostNames = 10000;
 
   std::string target_, name_;
@@ -137,7 +139,8 @@ void PictureFile::write(const Raster& raster, std::string_view header) {
   const int fd = open(name_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   const bool written = rad::writeAll(fd, bytes);
   const int why = errno;
-  // The file is emptied, because some readers would accept an incomplete picture. Devices need no emptying.
+  // The file is emptied, because some readers would accept an incomplete picture. Emptying fails for devices,
+  // where it is not needed.
   if (fd >= 0 && !written) [[maybe_unused]]
     const int emptied = ftruncate(fd, 0);
   if (fd >= 0) close(fd);

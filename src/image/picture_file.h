@@ -1,4 +1,5 @@
 #pragma once
+// Pictures as files.
 #include <string>
 #include <string_view>
 
@@ -19,9 +20,10 @@ PictureFormat pictureFormat(const std::string& name);
 
 // A file for a picture. An incomplete picture is never visible: it is written to a temporary file in the same
 // folder, which replaces the target when it is complete. A device, a pipe or the file of a standard
-// descriptor (/dev/stdout) is written directly. The constructor checks whether the file can be written,
-// before the picture is computed. Constructor and write() throw rad::Error (Status::system) with the name of
-// the file and the system's message: 'cannot write picture "a.png": No space left on device'.
+// descriptor (/dev/stdout) is written directly. The constructor checks whether the file can be written, so
+// that errors occur before the picture is computed. Constructor and write() throw rad::Error (Status::system)
+// with the name of the file and the system's message: 'cannot write picture "a.png": No space left on
+// device'.
 class PictureFile {
  public:
   explicit PictureFile(std::string name);
@@ -31,7 +33,8 @@ class PictureFile {
   const std::string& name() const { return name_; }
   PictureFormat format() const { return format_; }
 
-  // REQUIRES: the first call. header: for PictureFormat::radiance, the lines before FORMAT, with line ends.
+  // REQUIRES that it was not called before. header: for PictureFormat::radiance, the lines before FORMAT with
+  // their line ends.
   void write(const Raster& raster, std::string_view header);
 
  private:

@@ -15,7 +15,8 @@ struct Beam {
   V3d axis{0, 0, 1};   // unit
   double cosine = -1;  // of the half-angle; -1: all directions; above 1: no direction
 
-  // True if a point of the ball lies in the beam from this apex, or within 1e-6 radians of it.
+  // True if a point of the ball lies in the beam from this apex. May also be true for a ball that is up to
+  // 1e-6 radians outside the beam.
   bool meets(const V3d& apex, const Ball& ball) const;
 };
 

@@ -10,11 +10,13 @@
 
 namespace rsphere {
 
-// A polygon or a ring. Samples are drawn in the unit square, as s and t, and mapped to the source.
+// A polygon or a ring. Samples are drawn in the unit square, with coordinates s and t, and mapped to the
+// source.
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
-  // For a concave polygon: to a square of equal area, partly outside the polygon, by Parallelogram's formula.
+  // For a concave polygon: to a square of equal area that lies partly outside the polygon, by the formula of
+  // Parallelogram.
   struct Square {};
   // To the disk with radii u and v, preserving area.
   struct Disk {};
@@ -92,7 +94,8 @@ inline V3d acrossTube(const TubeLight& tube, const V3d& along) {
   return tube.half.cross(along).normalized() * (tube.area / (4 * tube.half.length()));
 }
 
-// Whether rays that are aimed at the shape hit it. Importance goals may have other shapes, hit by chance.
+// Whether rays that are aimed at the shape hit it. Importance goals may have other shapes, which are hit only
+// by chance.
 bool canBeAimedAt(ShapeRef shape, const Scene& scene);
 
 }  // namespace rsphere

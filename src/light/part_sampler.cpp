@@ -170,7 +170,8 @@ double jittered(double from, double to, double jitter, Random& random) {
   return middle + jitter * (random.uniform() - .5) * (to - from);
 }
 
-// A coordinate of a uniform point in the unit ball. Its density, 3/4 (1 - z^2), is that of a median of three.
+// One coordinate of a uniformly distributed point in the unit ball. Its density, 3/4 (1 - z^2), is that of
+// the median of three uniform numbers.
 double depthInBall(Random& random) {
   const double a = random.uniform(), b = random.uniform(), c = random.uniform();
   return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1;
@@ -268,21 +269,24 @@ void PartSampler::add(const V3d& direction, double solidAngle, double length) {
 }
 
 // A round source is sampled uniformly in solid angle projected along the direction to its middle. A single
-// ray to the middle is then exact for a surface that faces the source; jittered rays for every surface.
+// ray to the middle is then exact for a surface that faces the source; jittered rays are exact for every
+// surface.
 void PartSampler::addRound(const V3d& middle, double sine, double distance) {
   if (jitter_ <= 0) return add(middle, kPi * sine * sine, distance);
   const double s = sine * jitter_ * std::sqrt(random_.uniform());
   const double angle = 2 * kPi * random_.uniform();
   const double c = std::sqrt(std::max(0., 1 - s * s));
   const auto [x, y] = frame(middle);
-  // The reach of a glow is compared with the distance to a random point in the ball: no sharp edge.
+  // The reach of a glow is compared with the distance to a random point in the ball, which avoids a sharp
+  // edge.
   double length = distance;
   if (source_.reach > 0) length += jitter_ * source_.radius * depthInBall(random_);
   if (c > kEdgeOn)
     add(s * (std::cos(angle) * x + std::sin(angle) * y) + c * middle, kPi * sine * sine / c, length);
 }
 
-// addRound() for a ball, stratified: the disk that is seen is divided into parts, with a sample in each.
+// addRound() for a ball, stratified: the disk that the ball appears as is divided into parts, with one sample
+// in each.
 void PartSampler::addPartsOfBall(const V3d& middle, double sine, double distance) {
   const auto axes = frame(middle);
   const auto onSeenDisk = [&](double s, double t) {
@@ -410,7 +414,8 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
 // solid angle of a near part is unevenly distributed over its area, so that its middle would be too bright.
 void PartSampler::addNear(const PlaneLight& plane, const SourcePart& part) {
   const double height = plane.normal.dot(point_ - source_.center);
-  // In the plane of the source, rounding would decide whether the point sees it, filling half the sky.
+  // If the point lies in the plane of the source, rounding would decide whether it sees the source, which
+  // would then fill half the sky.
   if (height <= scene_.samePlace) return;
   const double omega = solidAngleOf(source_, plane, part, point_);
   double u = random_.uniform() * omega;

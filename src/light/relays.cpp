@@ -20,7 +20,8 @@ constexpr double kTiny = 1e-6;  // of cosines and shares: RADIANCE's own figure;
 constexpr double kRelayRounding = 1e-9;
 // For light that has passed more relays than this, only its source and this number of the last relays bound
 // it, because storing all n relays of each image in a chain of n would take memory of order n^2. The bounds
-// become wider, which affects memory and time but no answer. Two facing mirrors with -dr 2000 take 3 MB.
+// become wider, which affects memory and time but no answer. The images of two facing mirrors with -dr 2000
+// take 3 MB.
 constexpr size_t kMostRelays = 8;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
@@ -331,7 +332,8 @@ class Images {
                       false};
   }
 
-  // Where the last relay of a virtual source sends its light: the points with away . p > offset.
+  // The half space into which the last relay of a virtual source sends its light: the points with
+  // away . p > offset.
   struct Side {
     V3d away;
     double offset;
@@ -339,7 +341,8 @@ class Images {
   Side sideLit(LightId index) const {
     const LightSource& source = sources_[index];
     const Relay& last = relays_[relayOf_[index]];
-    // A mirror reflects on its front, even if it cuts the source; a prism's light goes away from the image.
+    // A mirror reflects on its front, even if its plane cuts the source; the light of a prism leaves on the
+    // side opposite to the image.
     const double side =
         isPrism(last) ? source.center.dot(last.normal) - (source.isDistant() ? 0 : last.offset) : -1;
     return side > 0 ? Side{-last.normal, -last.offset} : Side{last.normal, last.offset};
@@ -358,7 +361,8 @@ class Images {
     // As in RADIANCE, the reach is compared with the distance to the relay's center.
     if (source.reach > 0 && (relay.ball.center - source.center).length() > source.reach) return false;
     if (source.spot) {
-      // The spot's cone starts at the source's center; for the rest of it, the relay's ball is enlarged.
+      // The spot's cone starts at the source's center. For rays from the rest of the source, the relay's ball
+      // is enlarged by the source's radius.
       const Beam cone{source.spot->aim, 1 - source.spot->solidAngle / (2 * kPi)};
       const Ball enlarged{relay.ball.center, relay.ball.radius + source.radius};
       if (cone.cosine > 0 && !cone.meets(source.center, enlarged)) return false;
@@ -394,9 +398,11 @@ class Images {
     });
   }
 
-  // Whether light of a distant source from a relay's bounding ball can reach anything in another ball.
+  // Whether light of a distant source that has passed a relay's bounding ball can reach anything in another
+  // ball.
   static bool meetsDistantLight(const LightSource& source, const Ball& relay, const Ball& ball) {
-    // A source with an opening of 120 degrees or more is assumed to light every relay, so that none is lost.
+    // A source with an opening of 120 degrees or more is assumed to light every relay: slower, but no light
+    // is lost.
     const DistantLight& cone = *source.as<DistantLight>();
     if (cone.cosHalfAngle <= .5) return true;
     const V3d between = ball.center - relay.center;
@@ -464,7 +470,8 @@ class Images {
     image.shape = rsphere::imageOf(source.shape, projection);
     if (image.spot) {
       image.spot->aim = projection.vector(image.spot->aim).normalized();
-      // A shear maps no cone to a cone. The spotlight's is tested when the ray reaches the real source.
+      // A shear does not map a cone to a cone, so the image has no cone. The spotlight's cone is tested when
+      // the ray reaches the real source.
       if (!projection.isMirror) image.spot->solidAngle = 4 * kPi;
     }
     image.center =

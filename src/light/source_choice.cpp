@@ -8,13 +8,15 @@
 namespace rsphere {
 namespace {
 
-// The brightness (W/sr/m2) of a source, or of a virtual source's real one; patterns and reflectances are 1.
+// The brightness (W/sr/m2) of a source, or of the real source that a virtual source shows. Patterns and
+// reflectances are taken as 1.
 double brightnessOf(const Scene& scene, const ById<LightId, LightSource>& all, LightId index) {
   while (all[index].isVirtual()) index = all[index].relayed;
   return brightness(sourceRadiance(scene, scene.surfaces[all[index].surface]));
 }
 
-// The height of a source's center above the surface; half that of its highest point if it is partly below.
+// The height of a source's center above the surface. For a source that is partly below the surface: half the
+// height of its highest point.
 double before(double height, double radius) {
   return height >= radius ? height : std::max(0., height + radius) / 2;
 }

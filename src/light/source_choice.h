@@ -19,7 +19,8 @@ class SourceChoice {
   // Computes the weight of each source at a point, and returns the sum of the weights. sources: numbers of
   // LightIds. A weight approximates the brightness of the irradiance (W/m2) from the source on a surface with
   // the normal `front` (unit), or from all sides if front is 0. It is above 0 wherever LightSources::sample()
-  // can return a sample for this front. Its errors therefore increase the variance, but cause no bias.
+  // can return a sample for this front. Errors of the approximation therefore increase the variance, but
+  // cause no bias.
   double weigh(const V3d& point, const V3d& front, std::span<const uint32_t> sources,
                std::vector<double>& weights) const;
 

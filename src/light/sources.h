@@ -1,6 +1,7 @@
 #pragma once
 // The light sources of a scene, and how they are sampled from a point: a source is split into parts that are
-// small compared with their distance (-ds), with one ray to each part, to its middle or jittered (-dj).
+// small compared with their distance (-ds), and one ray is sent to each part, at its middle or jittered
+// (-dj).
 #include <vector>
 
 #include "base/random.h"
@@ -24,7 +25,8 @@ struct SourceSample {
 struct SourceSampling {
   double largest = 0;  // the largest ratio of a part's size to its distance (-ds); 0: sources are not split
   double jitter = 0;   // size of the jittered region relative to the part (-dj), 0 to 1
-  // Normal (unit) of the surface at the point. Sources entirely behind its plane are omitted; 0: none is.
+  // Normal (unit) of the surface at the point. Sources that lie entirely behind its plane are omitted; 0:
+  // none is omitted.
   V3d front{0, 0, 0};
   // Whether balls are split, too, if they are jittered. rtrace never splits balls. Where many rays are
   // averaged, splitting them does not pay.
@@ -61,7 +63,8 @@ class LightSources {
     if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
-  // Whether the density of samples of an undivided source with jitter 1 is known: distant, plane or ball.
+  // Whether the density of the samples of an undivided source with jitter 1 is known: of distant sources,
+  // plane ones and balls.
   bool isDensityKnown(LightId source) const;
   // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
   // has hit; 0 if it is not known. hit: its source, distance and cosine. REQUIRES that it is not distant.

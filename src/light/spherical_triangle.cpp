@@ -7,7 +7,8 @@ namespace rsphere {
 namespace {
 
 // The point on the arc from b to c whose versine (1 - cosine of its angle from b) is this fraction of c's
-// versine. A spherical cap's area is proportional to its versine, so uniform fractions give uniform areas.
+// versine. The area of a spherical cap is proportional to its versine, so uniform fractions give uniform
+// areas.
 V3d alongArc(const V3d& b, const V3d& c, double share) {
   const V3d difference = c - b;
   const double whole = difference.length2() / 2;  // 1 - cosine, without cancellation
@@ -33,7 +34,8 @@ V3d sampleTriangle(const V3d& a, const V3d& b, const V3d& c, double solidAngle, 
   if (!(length > 0)) return alongArc(b, a, u2);
   const V3d e = across / length;
   const double half = u1 * solidAngle / 2;
-  // If b is near a or nearly opposite, sums and differences of vectors keep digits that products would lose.
+  // If b is near a or nearly opposite to it, sums and differences of the vectors keep digits that products of
+  // the vectors would lose.
   const bool near = a.dot(b) > 0;
   const double onePlus = (a + b).length2() / 2, volume = std::abs(e.dot(a.cross(near ? b - a : b + a)));
   const double whole = std::atan2(c.dot(e), c.dot(a));

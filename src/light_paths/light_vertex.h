@@ -25,7 +25,8 @@ struct LightVertex {
   double place[3];  // world; in double precision, for scenes far from the origin
   float facing[3];  // world; the normal (unit) on the side that the light came from
   float power = 0;  // brightness of the diffusely reflected light, W
-  // Diffuse surfaces on the path from the source, including this one; 1 more if a highlight lights the first.
+  // Number of diffuse surfaces on the path from the source, including this one. 1 more if a highlight lights
+  // the first surface.
   uint8_t bounces = 0;
   Way way = direct;
   uint8_t batch = 0;

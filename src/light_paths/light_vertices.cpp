@@ -207,7 +207,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
   return course;
 }
 
-// Whether a light path enters the room through a portal, and ends: paths from the portal carry this light.
+// Whether a light path enters the room through a portal. It ends there, because paths that start on the
+// portal carry this light.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
   const Portals& portals = all_.surfaces_.portals();
   return !portals.empty() &&
@@ -451,7 +452,8 @@ void VisibleVertices::clearFor(double times) { rsphere::clearFor(times, all_); }
 void VisibleVertices::sort(const PreparedScene& prepared) {
   permute(all_, orderByPlace(all_.size(), [&](size_t i) { return all_[i].vertex.point(); }));
   shadowRays_ = std::vector<std::atomic<double>>(all_.size());
-  // Boxes are only made if light sources are hidden from some regions: otherwise, few regions are hidden.
+  // Boxes are only made if light sources are hidden from some regions. In other scenes, few regions are
+  // hidden from each other.
   if (!prepared.lights().hidden().divides()) return;
   std::vector<Box3d> boxes((all_.size() + kBlock - 1) / kBlock);
   for (size_t i = 0; i < all_.size(); ++i) boxes[i / kBlock].extendBy(all_[i].vertex.point());

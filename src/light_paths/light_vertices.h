@@ -7,9 +7,11 @@
 // - A source lights the first diffuse surface directly, through panes, or by a rough highlight. Sharp
 //   reflections are excluded, because shadow rays do not follow them either; but those of importance are not,
 //   since rays from the goals find the same light.
-// - Later surfaces reflect it diffusely (at most -ab times), sharply or by a rough highlight.
+// - Later surfaces reflect the light diffusely, sharply or by a rough highlight, with at most -ab diffuse
+//   reflections.
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
-//   direct sunlight, daylight comes from the sky and from other surfaces, by sharp reflections, too.
+//   direct sunlight, daylight comes from the sky and from other surfaces, and sharp reflections transport it,
+//   too.
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -31,7 +33,8 @@ struct NearLight {
   double meanLength = 1;  // of light paths from the sources to the first surfaces
 
   // The fraction that rays estimate at this distance, because vertices would make it too noisy. It falls with
-  // the fourth power of the distance: far away, few rays meet bright surfaces, which is noisier.
+  // the fourth power of the distance: far away, few rays meet bright surfaces, and they would be noisier than
+  // vertices.
   double share(double distance) const {
     const double ratio = distance * distance / (width * width);
     return 1 / (1 + ratio * ratio);
@@ -79,7 +82,8 @@ class VisibleVertices {
   void sort(const PreparedScene& prepared);
 
   const std::vector<VisibleVertex>& all() const { return all_; }
-  // Calls use(begin, end) for ascending index ranges of all(), except some vertices hidden from the point.
+  // Calls use(begin, end) for ascending index ranges of all(). They contain all vertices except some that are
+  // hidden from the point.
   void from(const V3d& point, FunctionRef<void(size_t begin, size_t end)> use) const;
   // Memory for the result of LightVertices::shadowRaysTo() for a vertex of all(); 0: not computed yet.
   std::atomic<double>& shadowRaysTo(const VisibleVertex& v) const {
@@ -159,7 +163,8 @@ class LightVertices {
 };
 
 // Approximate reflectance of a place for light from one direction towards the eye, relative to a white
-// diffuse surface, to select joins. toSource: direction to the source; view: of the ray from the eye (unit).
+// diffuse surface; used to select joins. toSource: direction to the source (unit). view: direction of the ray
+// from the eye (unit).
 double joinedReflectance(const Opaque& material, const V3d& normal, const V3d& view, const V3d& toSource);
 
 }  // namespace rsphere

@@ -1,7 +1,8 @@
 #pragma once
 // Finds unbounded light vertices around a place: vertices whose light grows without bound as the place comes
-// near them (LightVertex::isUnbounded()). Clusters of vertices are up to meters wide. By its cluster alone,
-// an unbounded vertex a few centimeters away would be chosen rarely, as thousands of times its light.
+// near them (LightVertex::isUnbounded()). Clusters of vertices are up to meters wide. Sampled by its cluster
+// alone, an unbounded vertex a few centimeters from the place would be chosen rarely, and then represent
+// thousands of times its light.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -185,7 +185,8 @@ void PlainSurfaces::findSurfaces() {
     const bool isSource = prepared_.lights().of(i) != kNone;
     const bool isDark = isBlack(sourceRadiance(scene_, surface));
     coverage_.all = coverage_.all && known && (!mayShine || isSource || isDark);
-    // A glow with a positive reach is a source up to that distance; with a negative one it lights nothing.
+    // A glow with a positive reach is a source only up to that distance; with a negative one it lights
+    // nothing.
     const auto* const glow = std::get_if<Glow>(material);
     const double reach = glow ? glow->reach : 0;
     coverage_.glows = coverage_.glows || (!isDark && (reach > 0 || (reach == 0 && !isSource)));
@@ -211,7 +212,8 @@ const char* PlainSurfaces::obstacle() const {
   if (!coverage_.anySource) return "no known sources";
   // With glances, the light that only rays find is noisier. Measured: in three rooms with a lamp and a glow,
   // 2 to 2.7 times the error in 6 to 10 times the time. Where most surfaces are not known, glances find too
-  // little light. Measured: in a room with textured walls, an equal error in 2 to 3 times the time.
+  // little light to be worth their time. Measured: in a room with textured walls, an equal error in 2 to 3
+  // times the time.
   if (!scene_.importance && coverage_.glows) return "surfaces that only rays find";
   if (!scene_.importance && coverage_.mostlyUnknown) return "surfaces that are not known";
   return hasMist(scene_) ? "mist" : nullptr;

@@ -1,5 +1,6 @@
 #pragma once
-// The surfaces and light sources that bidirectional estimation can handle, called "known":
+// The surfaces and light sources that bidirectional estimation can handle, called "known" (light_vertices.h,
+// vertex_light.h):
 // - plastic, metal, glass and mirrors without textures, mixtures or antimatter; plastic and metal may have
 //   patterns, if these depend on place alone;
 // - local sources at which shadow rays can be aimed, and their images in mirrors;
@@ -26,7 +27,8 @@ struct PlainPlace {
   Color color() const { return material->color * pattern; }
 };
 
-// The first hit along a straight line that is not a pane of glass; none if it leaves through a portal first.
+// The first hit along a straight line that is not a pane of glass; none if the line leaves through a portal
+// first.
 struct Sight {
   Hit hit;                // its distance is measured from the last pane
   double distance = 0;    // of the hit from the line's start, world units
@@ -49,7 +51,8 @@ class PlainSurfaces {
   // portals: none if daylight is not known.
   explicit PlainSurfaces(const PreparedScene& prepared, Portals portals = {});
 
-  // Why paths from both ends cannot be used, or would provide too little light; null if they can be used.
+  // The reason why paths from both ends cannot be used, or why they would provide too little light; null if
+  // they can be used.
   const char* obstacle() const;
 
   // How much of the scene's light paths from both ends estimate.
@@ -58,9 +61,11 @@ class PlainSurfaces {
     bool allSources = true;  // all sources are known
     bool all = true;         // all light: all surfaces and sources are known
     bool allDirect = true;   // all direct light of known surfaces
-    // Some surface emits light that shadow rays miss, wholly or in part; only rays that hit it find it.
+    // Some surface emits light that shadow rays miss, wholly or in part; only a ray that hits the surface
+    // finds it.
     bool glows = false;
-    // More than half of the area of surfaces is not known (one side of each, without instances and meshes).
+    // More than half of the area of all surfaces is not known (one side of each, without instances and
+    // meshes).
     bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
@@ -90,7 +95,8 @@ class PlainSurfaces {
   // which the line starts, or kNone.
   Sight look(const V3d& origin, const V3d& direction, double farthest, SurfaceId start) const;
   // The transmittance of the panes on the straight line between two places (world); black if anything else
-  // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`.
+  // lies between them, or if the line from `to` leaves through a portal. start: the surface of `to`, as in
+  // look().
   Coefficient passing(const V3d& to, const V3d& from, SurfaceId start) const;
   // The transmittance of the panes between a place and a source in a direction (unit); portals are ignored.
   Coefficient passingToSource(const V3d& to, const V3d& direction, double distance, SurfaceId start) const;
@@ -119,7 +125,8 @@ class PlainSurfaces {
   bool hasPanes_ = false;
 };
 
-// The probability of choosing this source by PlainSurfaces::weigh(); 0 if hidden. weights: room for these.
+// The probability of choosing this source by the weights of PlainSurfaces::weigh(); 0 if it is certainly
+// hidden. weights: room for these.
 double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
                 std::vector<double>& weights);
 
@@ -141,7 +148,8 @@ inline bool hasRoughHighlight(const Opaque& material) {
 enum class Shown : uint8_t { none, highlight, all };
 
 // The radiance that a place reflects, diffusely and in its rough highlight, relative to the radiance of a
-// source of this solid angle (sr). toSource: direction to the source; view: of the ray to the place (unit).
+// source of this solid angle (sr). toSource: direction to the source (unit). view: direction of the ray that
+// hits the place (unit).
 Coefficient shownOfSource(const PlainPlace& at, const V3d& view, const V3d& toSource, double solidAngle,
                           Shown shown = Shown::all);
 

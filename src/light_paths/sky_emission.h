@@ -16,7 +16,8 @@ namespace rsphere {
 using OutdoorRadiance =
     FunctionRef<Radiance(const V3d& origin, const V3d& direction, int bounces, Random& random)>;
 
-// OutdoorRadiance by the number of further diffuse bounces: element i is the light after i bounces.
+// OutdoorRadiance, separated by the number of further diffuse bounces: element i of the result is the light
+// after i bounces.
 using OutdoorParts = FunctionRef<void(const V3d& origin, const V3d& direction, int bounces, Random& random,
                                       std::vector<Radiance>& parts)>;
 

@@ -143,7 +143,8 @@ SourceEmission::Way SourceEmission::way(LightId source, Numbers& random, Functio
 }
 
 // Estimates the power of a source that is not even, from random directions. One more direction is assumed to
-// show the source without patterns, so that the result is above 0 even if they miss all of its light.
+// show the source without patterns, so that the result is above 0 even if the random directions miss all of
+// its light.
 double SourceEmission::triedPower(LightId source) const {
   Random random(mixBits(source.index()));
   FunctionScratch scratch;

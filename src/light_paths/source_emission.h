@@ -3,9 +3,10 @@
 // proportional to its power. Paths of distant sources start on portals (portals.h), by projected area.
 //
 // An "even" source emits the same radiance from all points in all directions. Spotlights are not even, nor
-// are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates
-// (point and direction) are sampled, and one is selected in proportion to its power (resampled importance
-// sampling: Talbot, Cline and Egbert 2005, "Importance resampling for global illumination").
+// are sources with a pattern, such as the light distribution of a luminaire. For these, several candidates (a
+// point and a direction) are sampled, and one is selected with a probability proportional to its power
+// (resampled importance sampling: Talbot, Cline and Egbert 2005, "Importance resampling for global
+// illumination").
 #include "light/surface_point.h"
 #include "light_paths/plain_surfaces.h"
 
@@ -19,7 +20,8 @@ class SourceEmission {
   SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths);
 
   // An emission with most paths from preferred sources, each of which then has less power. This at most
-  // doubles the noise from others. preferred: numbers of LightIds; the real sources of virtual ones.
+  // doubles the noise from other sources. preferred: numbers of LightIds; for a virtual source, its real
+  // source is preferred.
   SourceEmission preferring(std::span<const uint32_t> preferred) const;
 
   // The power of a source by brightness, W; approximate unless the source is even; 0 for virtual sources. For
@@ -37,10 +39,12 @@ class SourceEmission {
   };
   Leaving leave(LightId source, ScrambledPoint& random, FunctionScratch& scratch) const;
 
-  // The mean power of a path, W (brightness): that of paths from even sources, unless some are preferred.
+  // The mean power of a path, W (brightness). All paths from even sources have this power, unless some
+  // sources are preferred.
   double pathPower() const { return pathPower_; }
 
-  // Factor on the light at this distance from its source (world units): a spotlight's focus is behind it.
+  // Factor on the light at this distance from its source (world units), because the light of a spotlight
+  // diverges from a focus behind it.
   double divergence(LightId source, double distance) const;
   // Whether the density of shadow rays towards the source is known.
   bool isAimedAt(LightId source) const;

@@ -17,16 +17,19 @@ struct LightVertices {
   //
   // Also the distance at which rays leave half of their light to joins with the eye
   // (NearLight::closeShare()), relative to the smaller of the distance from the eye and the mean distance.
-  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of 2
-  // mm between paper and goal. Measured: with .01, the error is 10% larger, in a tenth less time.
+  // Without these joins, one answer in 200 around the goal is 10% too bright, because the eye sees a gap of
+  // 2 mm between a sheet of paper and the goal. Measured: with .01, the error is 10% larger, in a tenth less
+  // time.
   RSPHERE_TUNED(LightVertices, double, kWidth, .15);
   // Light paths that measure the mean distance from the sources to the first surfaces, and directions that
   // estimate the power of a source with a pattern or a cone. If single values vary as much as their mean,
   // such means are known within 3%.
   static constexpr size_t kMeasured = 1024;
-  // Cap on the surfaces that a light path hits, for facing mirrors. Russian roulette ends nearly all earlier.
+  // Cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
+  // nearly all paths earlier.
   static constexpr size_t kMostHits = 1024;
-  // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2: for most vertices.
+  // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2, and so for most
+  // vertices.
   static constexpr double kRest = 1. / 101;
 };
 
@@ -44,8 +47,9 @@ struct VertexLight {
   // wall close to a ceiling that mirrors light: relative variance without this candidate 39; with the value
   // 1, 2, 4, 8, 16: 5.1, 3.5, 2.0, 4.1, 8.
   RSPHERE_TUNED(VertexLight, double, kInCube, 4);
-  // When vertices are clustered: the distance assigned to opposite normals, in units of twice the diagonal of
-  // the box around all vertices. With .12, the variance of this light is up to three times as large.
+  // When vertices are clustered, this is the distance that is assigned to opposite normals, in units of twice
+  // the diagonal of the box around all vertices. With .12, the variance of this light is up to three times as
+  // large.
   RSPHERE_TUNED(VertexLight, double, kFacing, .05);
   // Number of candidates that get a shadow ray. 8 has no effect beyond noise.
   RSPHERE_TUNED(VertexLight, int, kJoined, 2);
@@ -58,7 +62,8 @@ struct VertexLight {
   //
   // At a place that the eye sees directly, a path from the eye estimates the light that light paths do not
   // carry. It is always followed if at least the fraction kFollowed of all hits of light paths are on unknown
-  // surfaces. If fewer are, its probability is in proportion to them, but at least half of kFollowed.
+  // surfaces. If fewer are, its probability is proportional to their fraction, but at least half of
+  // kFollowed.
   RSPHERE_TUNED(VertexLight, double, kFollowed, .25);
 };
 

@@ -85,8 +85,9 @@ inline float squareAbove(float x) {
 }  // namespace
 
 // Repeatedly halves the cluster with the largest product of power and extent, until the number of clusters is
-// reached. The root of the power is used if a spot of sunlight may have most of the power. It would otherwise
-// get most of the clusters, and a place beside a wall would seldom draw the vertices next to it.
+// reached. The root of the power is used if a spot of sunlight may have most of the power. It would
+// otherwise get most of the clusters, and the others would be so large that a place beside a wall would
+// seldom draw the vertices next to it.
 VertexClusters::Order VertexClusters::orderOf(std::span<const LightVertex> vertices, bool uneven) {
   Order order{std::vector<uint32_t>(vertices.size()), {}};
   std::iota(order.vertices.begin(), order.vertices.end(), 0);
@@ -183,7 +184,8 @@ void VertexClusters::measure(size_t i) {
       least > 0 ? static_cast<float>(std::sqrt(1 - std::min(1., least * least)) + kRounding) : 1.f;
 }
 
-// Estimates the light from each cluster: 0 only if all of its vertices are hidden or have the weight 0.
+// Estimates the light from each cluster. An estimate is 0 only if all vertices of the cluster are hidden or
+// have the weight 0.
 void VertexClusters::weigh(const Receiver& to, Numbers& weights) const {
   const Imath::V3f p(to.point - middle_), n(to.normal);
   const float ax = std::abs(n.x), ay = std::abs(n.y), az = std::abs(n.z);
@@ -246,7 +248,8 @@ VertexClusters::Candidates VertexClusters::draw(const Receiver& to, Random& rand
       const size_t first = firstOf(i), own = firstOf(i + 1) - first;
       const auto vertex =
           static_cast<uint32_t>(first + static_cast<size_t>(random.uniform() * static_cast<double>(own)));
-      // All vertices are prefetched before the first is used, because few are in the processor's cache.
+      // All vertices are prefetched before the first is used, because few of them are in the processor's
+      // cache.
       __builtin_prefetch(&vertices_[vertex]);
       __builtin_prefetch(&vertices_[vertex].bounces);
       drawn.all[drawn.count++] = {vertex, expected / static_cast<double>(own)};

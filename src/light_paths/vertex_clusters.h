@@ -1,5 +1,6 @@
 #pragma once
-// Clusters of light vertices. For each place, vertices are sampled by estimates of their clusters' light.
+// Clusters of light vertices. For each place, vertices are sampled in proportion to estimates of the light
+// that their clusters send to it.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -49,12 +50,14 @@ class VertexClusters {
     size_t count = 0;
   };
   // Samples kCandidates vertices, from clusters with probabilities proportional to their estimated light, and
-  // one of NearVertices, if there are any. Vertices that send no light are dropped.
+  // one of NearVertices, if there are any. Vertices that send no light are dropped, so that there may be
+  // fewer.
   Candidates draw(const Receiver& to, Random& random) const;
 
  private:
   static constexpr size_t kCount = tuning::VertexLight::kClustersRoom;
-  // Number of clusters in a group. A group is first selected, to avoid going through all clusters.
+  // Number of clusters in a group. A group is first selected by its total weight, which avoids going through
+  // the clusters of all groups.
   static constexpr size_t kGroup = 8;
   static_assert(kCount % kGroup == 0);
   // One element for each cluster. Separate arrays allow weighing several clusters at a time (SIMD).

@@ -26,7 +26,8 @@ size_t chooseOne(size_t count, double sum, const WeightOf& weightOf, Random& ran
   return chosen;
 }
 
-// Only made if light sources are hidden from some regions: otherwise few regions are hidden from each other.
+// Only made if light sources are hidden from some regions. In other scenes, few regions are hidden from each
+// other.
 std::optional<HiddenBoxes> hiddenClusters(const PreparedScene& prepared, const LightVertices& vertices) {
   if (!prepared.lights().hidden().divides()) return {};
   return HiddenBoxes(prepared.lights().hidden().blockers(),
@@ -145,7 +146,8 @@ Radiance VertexLight::arriving(const PlainPlace& at, const SourceSample& sample,
   return surfaces_.radianceOf(sample.source, point, sample.normal, sample.direction, scratch) * passed;
 }
 
-// arriving() for a virtual source. Black unless the path hits each mirror, and a portal to a distant source.
+// arriving() for a virtual source. Black unless the path hits each mirror, and leaves through a portal to a
+// distant source.
 Radiance VertexLight::arrivingByMirrors(const PlainPlace& at, const SourceSample& sample,
                                         FunctionScratch& scratch) const {
   const auto& lights = prepared_.lights().all();
@@ -191,7 +193,8 @@ double VertexLight::lobesOver(const PlainPlace& at, const V3d& view, const Sourc
 }
 
 // The weight of a direct estimate by the balance heuristic, for light from one direction. shadowRays, lobes:
-// densities of the two direct estimates, divided by that of light paths; the result is the first's weight.
+// densities of the two direct estimates, divided by the density of light paths; the result is the weight of
+// the first.
 double VertexLight::shareOf(const PlainPlace& at, const Seen& seen, const SourceSample& sample,
                             double shadowRays, double lobes) const {
   if (!(shadowRays > 0)) return 0;

@@ -51,7 +51,8 @@ class VertexLight {
   struct Record {
     BatchSums batches{};
     // The part of the variance of `batches` that is caused by the random choice among vertices, not by the
-    // vertices. It is the sum of the squared contributions, each times the probability not to be chosen.
+    // vertices. It is the sum of the squared contributions, each times the probability that the vertex is not
+    // chosen.
     Color squares{0, 0, 0};
     double squaredBrightness = 0;
     const SpectralSampling* sampling = nullptr;
@@ -67,7 +68,8 @@ class VertexLight {
     Coefficient scale{1};                       // factor on the recorded contributions (sr)
     const OutdoorRadiance* outdoors = nullptr;  // the light beyond portals. REQUIRED if there are any
   };
-  // The mean radiance over the hemisphere of the place (W/sr/m2) from bounces, or straight through a portal.
+  // The mean radiance that arrives over the hemisphere of the place after at least one bounce, or
+  // straight through a portal (W/sr/m2).
   Radiance indirectAt(const PlainPlace& at, const Indirect& how, Random& random, Scratch& scratch) const;
 
  private:

@@ -32,7 +32,8 @@ struct Corners {
   }
 };
 
-// Calls use() with the surfaces between two points, in order, until it returns true; returns whether it did.
+// Calls use() with the surfaces between two points, in the order of a ray, until it returns true. Returns
+// whether it has returned true.
 bool anySurface(const Tracer& tracer, const V3d& from, const V3d& to, FunctionRef<bool(SurfaceId)> use) {
   V3d way = to - from, origin = from;
   double left = way.length() - tracer.samePlace();
@@ -140,8 +141,9 @@ struct Blockers::Way {
   bool narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts, double inset);
 };
 
-// Narrows each box to the part visible from the other through the holes of an area. True if nothing is
-// visible. axis: perpendicular to the area; cuts: where segments between the boxes' corners intersect it.
+// Narrows each box to the part that is visible from the other box through the holes of an area. Returns true
+// if nothing is visible. axis: perpendicular to the area; cuts: where segments between the boxes' corners
+// intersect it.
 bool Blockers::Way::narrowToHoles(const JoinedPolygons::Area& area, int axis, std::span<const V3d> cuts,
                                   double inset) {
   Box3d all, open;
@@ -188,7 +190,8 @@ bool Blockers::isClear(const V3d& from, const V3d& to) const {
 // The result also holds for all places within kBeside times margin() of the boxes. Places behind a blocker
 // that is perpendicular to an axis are an exception, since regions end closer to it.
 //
-// If a segment misses the polygon, tests whether anything blocks it before looking up the area (slow).
+// If a segment misses the polygon, tests whether anything blocks the segment before looking up the area,
+// which may take long.
 //
 // If some segments pass through holes, the boxes are narrowed to the ends of such segments. Slabs whose holes
 // are not above one another may then hide a box together.

@@ -228,7 +228,8 @@ void HiddenBoxes::findVisible(Region& region) const {
 }
 
 // Returns a place in the region in front of the surface of the point, if that surface is perpendicular to an
-// axis; otherwise the point itself. A box in front that is hidden from this place is hidden from the point:
+// axis; otherwise the point itself. A box in front of the surface that is hidden from this place is hidden
+// from the point too:
 // - A blocker that is not perpendicular to an axis hides the box from all places within Blockers::kBeside
 //   times margin() of the region.
 // - Any other blocker hides the box from the point too, unless the box lies behind the surface.

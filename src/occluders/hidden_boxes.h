@@ -1,5 +1,6 @@
 #pragma once
-// Finds boxes that are certainly hidden from a place, such as the luminaires on other storeys.
+// Finds boxes that are certainly hidden from a place, such as the luminaires on all other storeys of a
+// building.
 //
 // A box is hidden from another if an opaque slab or wall intersects every segment between them (blockers.h).
 // A light source in a hidden box need not be sampled, since every shadow ray would be blocked.
@@ -27,17 +28,20 @@ class HiddenBoxes {
   ~HiddenBoxes();
   HiddenBoxes(HiddenBoxes&&) noexcept;
 
-  // The indices of the boxes that are not certainly hidden from the point, ascending. Thread-safe.
+  // The indices of the boxes that are not certainly hidden from the point, in ascending order. May be called
+  // from any thread.
   std::span<const uint32_t> notHiddenFrom(const V3d& point) const { return root_ ? find(point) : all_; }
   std::span<const uint32_t> all() const { return all_; }
 
   // notHiddenFrom() for a point of a surface that faces `front` (unit), for callers that ignore boxes behind
-  // the surface: the result may or may not contain them. On slabs and walls, this finds more hidden boxes.
+  // the surface: the result may or may not contain them. For points on slabs and walls, this finds more
+  // hidden boxes.
   std::span<const uint32_t> notHiddenFrom(const V3d& point, const V3d& front) const {
     return root_ ? find(beside(point, front)) : all_;
   }
 
-  // The result for the largest region around the point for which enough(result), or for the smallest.
+  // The result for the largest region around the point for which enough(result) is true; if it is never true,
+  // for the smallest region.
   std::span<const uint32_t> widestWhere(const V3d& point,
                                         FunctionRef<bool(std::span<const uint32_t>)> enough) const;
 

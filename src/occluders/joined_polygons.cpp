@@ -20,7 +20,8 @@ constexpr double kSameNumber = 1.2345678e-6;
 // rounding of coordinates, and the tracer lets no ray pass between such polygons (meetsInside()).
 constexpr double kTouching = 16 * std::numeric_limits<double>::epsilon();
 
-// Places on both sides of an edge are tested, at this multiple of the distance within which polygons touch.
+// Places on both sides of an edge are tested. Their distance from it is this multiple of the distance within
+// which polygons touch.
 constexpr double kBeside = 8;
 
 // 1 or -1: the sign that gives all polygons of a plane one common normal.
@@ -152,7 +153,8 @@ bool JoinedPolygons::Area::contains(std::span<const V3d> points, double margin) 
 // Finds the areas of polygons in one plane.
 class JoinedPolygons::Joining {
  public:
-  // polygons: in the plane through the first with this normal. All stop shadow rays from one side.
+  // polygons: in the plane through the first of them with this normal. They all stop shadow rays from one
+  // side.
   Joining(const Scene& scene, const V3d& normal, std::vector<SurfaceId> polygons)
       : scene_(scene), normal_(normal), polygons_(std::move(polygons)), joined_(polygons_.size()) {
     std::vector<Box3d> boxes;
@@ -201,7 +203,8 @@ class JoinedPolygons::Joining {
   }
   double beside() const { return kBeside * touching_; }
 
-  // Divides an edge where other edges meet it, and adds the parts with opaque polygons on one side only.
+  // Divides an edge where other edges meet it, and adds those parts to the outline that have opaque polygons
+  // on one side only.
   void findOutline(uint32_t index, const Area::Segment& edge,
                    std::vector<std::pair<uint32_t, Area::Segment>>& outline) {
     V3d along = edge.end - edge.begin;
@@ -262,7 +265,8 @@ class JoinedPolygons::Joining {
     findHoles(area);
   }
 
-  // Touching parts of the outline belong to one hole. An area with a hole at its edge is not rectangular.
+  // Parts of the outline that touch belong to one hole. An area with a hole that touches its edge is not
+  // rectangular.
   void findHoles(Area& area) const {
     const auto& boxes = area.outlineTree_.boxes;
     Groups touching(boxes.size());

@@ -30,7 +30,8 @@ class JoinedPolygons {
         if (i != axis_ && (point[i] < box_.min[i] + margin || point[i] > box_.max[i] - margin)) return false;
       return true;
     }
-    // Whether the hull of points in its plane lies in the area, `margin` (world units) from the outline.
+    // Whether the convex hull of points in the area's plane lies within the area, at least `margin` away from
+    // its outline (world units).
     bool contains(std::span<const V3d> points, double margin) const;
     // Boxes around the holes in a rectangular area. Empty if the area has no holes or is not rectangular.
     const std::vector<Box3d>& holes() const { return holes_; }

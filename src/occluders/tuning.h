@@ -19,25 +19,29 @@ struct HiddenBoxes {
   // the region's width is divided first, but at most kMostUntested times.
   static constexpr double kSameRegion = .99;
   static constexpr int kMostUntested = 8;
-  // A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place is
-  // this many times as far as the nearest. With a million lamps below a bare floor, each ray examines 340
-  // lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these divisions.
+  // A strip at the edge of a slab is also divided by its distance from the slab, until the farthest place in
+  // it is this many times as far away as the nearest. With a million lamps below a bare floor, each ray
+  // examines 340 lamps with the value 17 and 170 with 5, in an equal time; about 100,000 without these
+  // divisions.
   static constexpr double kSameDistance = 5;
   // Number of boxes that are examined to decide whether a region is divided.
   static constexpr size_t kProbes = 32;
   // To decide whether to divide a region, only polygons are considered whose size times this factor is at
   // most the region's width. For larger polygons, division would gain little.
   static constexpr double kWorthDividing = .25;
-  // Cap on the tests to find the boxes hidden from a region. To keep below it, groups are tested first.
+  // Cap on the number of tests to find the boxes that are hidden from a region. To keep below it, groups of
+  // boxes are tested first.
   static constexpr size_t kMostTests = 4096;
-  // Up to this number of boxes, blockers are searched for from both ends of a segment; more take too long.
+  // Up to this number of boxes, blockers are searched for from both ends of a segment; for more boxes this
+  // takes more time than it saves.
   static constexpr size_t kFewFromBothEnds = 4096;
 };
 
 // Polygons that hide (blockers.cpp).
 struct Blockers {
   static constexpr size_t kMostKnown = 8;  // number of recent blockers that are kept
-  // Cap on the surfaces examined along the way to a box; furniture or glass may stand before a wall.
+  // Cap on the surfaces that are examined along the way to a box; furniture or glass may stand in front of a
+  // wall.
   static constexpr int kSurfacesInTheWay = 6;
   // Cap on the blockers that are kept for all regions: 6 MB.
   static constexpr size_t kMostFound = 16384;

@@ -10,6 +10,7 @@
 
 namespace rsphere {
 
+// Whether a surface can be part of a wall.
 using IsWall = FunctionRef<bool(const Surface&)>;
 
 // Finds the holes in walls with a grid on each wall (tuning::Holes::kCells), and returns their bounding

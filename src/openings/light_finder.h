@@ -31,7 +31,8 @@ concept LightFinder = requires(const Finder& finder, const AimFrom& from, typena
   // occlusion (W/sr/m2). aim.seen, if it exists, is the fraction of the hemisphere that they fill.
   finder.aim(from, aim);
   { aim.mean } -> std::convertible_to<double>;
-  // A direction towards a proposal (unit), or 0 if it misses; u: uniform in [0, 1). REQUIRES aim.mean > 0.
+  // A direction towards a proposal (unit), or 0 if the sample misses it; each u: uniform in [0, 1). REQUIRES
+  // aim.mean > 0.
   { finder.sample(aim, u, u, u) } -> std::same_as<V3d>;
   // The density of the directions of sample(), per sr.
   { finder.density(aim, direction) } -> std::same_as<double>;

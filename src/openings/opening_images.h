@@ -1,6 +1,7 @@
 #pragma once
 // The images of openings (openings.h) in flat mirrors. An image brings daylight to places that see the
-// opening in the mirror, perhaps only there. It lies behind its mirror; rays are aimed at it, too.
+// opening in the mirror, perhaps only there. It lies behind its mirror, and rays are aimed at it as at an
+// opening.
 #include "openings/openings.h"
 #include "rays/prepared_scene.h"
 
@@ -15,7 +16,8 @@ struct OpeningImage : Opening {
   V3d crossing(const V3d& from, const V3d& to) const;
 };
 
-// The strongest images. Missed images, and hidden ones, change the variance, not the mean.
+// The strongest images. Missed images, and places from which other surfaces hide an image, change the
+// variance, not the mean.
 class OpeningImages : public AimedAtOpenings<OpeningImage> {
  public:
   // Uses polygons of mirror, or of smooth metal or plastic, outside of instances. Keeps no references.

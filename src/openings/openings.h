@@ -18,7 +18,8 @@
 
 namespace rsphere {
 
-// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light.
+// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light
+// through the opening.
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;
@@ -42,7 +43,8 @@ struct Opening : Rectangle {
 // The projected area (square world units) of openings for light that enters in this direction (unit).
 double areaTowards(std::span<const Opening> openings, const V3d& direction);
 
-// A point on the openings, uniform by projected area, which must be above 0; u1, u2, u3: uniform in [0, 1).
+// A point on the openings, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES a projected
+// area above 0.
 V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3);
 
 // What openings and their images have in common as a LightFinder: rectangles, sampled by area.

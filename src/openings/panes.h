@@ -11,7 +11,8 @@ namespace rsphere {
 class PreparedScene;
 
 // Whether light may pass a surface from behind: true for transparent and diffusely transmitting materials,
-// BSDFs and prisms. False for volumes, light sources, surfaces without material, and unreadable BSDFs.
+// BSDFs and prisms. False for volumes, light sources, surfaces without a material, and BSDFs whose files
+// cannot be read.
 bool lightPasses(const PreparedScene& prepared, const Surface& surface);
 
 // The last segment of a straight line: from the last pane, or from the line's origin, to the first surface

@@ -27,7 +27,8 @@ PortalDirections::PortalDirections(const Portals& portals, const V3d& point, con
   double sum = 0;
   for (const Opening& p : portals.all()) {
     if (!(p.above(point) > 0)) continue;
-    // The portal's light at the place is estimated from the mean cosine of its corners; 0 below the horizon.
+    // The portal's light at the place is estimated from the mean cosine of the directions to its corners; 0
+    // for corners below the horizon.
     double height = 0;
     for (int c = 0; c < 4; ++c) {
       const V3d to = p.at(c & 1, c >> 1) - point;

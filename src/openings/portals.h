@@ -25,7 +25,8 @@ class Portals {
   double lift() const { return lift_; }
   void moveIndoors(size_t portal) { portals_[portal].corner += 2 * lift_ * portals_[portal].normal; }
 
-  // The distance at which a straight line first leaves through a portal within `farthest`; else kFarAway.
+  // The distance at which a straight line first leaves through a portal; kFarAway if it does not within
+  // `farthest`.
   double leaving(const V3d& origin, const V3d& direction, double farthest) const;
   bool isLeft(const V3d& origin, const V3d& direction, double farthest) const {
     return leaving(origin, direction, farthest) < farthest;

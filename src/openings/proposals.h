@@ -1,5 +1,6 @@
 #pragma once
-// Regions at which directions from a point are aimed (importance sampling), and estimates of their light.
+// Regions at which directions from a point are aimed (importance sampling), with estimates of the light from
+// each.
 #include <array>
 #include <cstddef>
 #include <cstdint>

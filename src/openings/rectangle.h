@@ -29,7 +29,8 @@ inline bool contains(const Rectangle& r, const V3d& at) {
 }
 
 // The form factor to the front of the rectangle from a place with this normal (unit), estimated from five of
-// its points. filled: area of the parts that send light (square world units). counts(at): whether it does.
+// its points. filled: area of the parts that send light (square world units). counts(at): whether a point
+// sends light.
 template <class Counts>
 double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V3d& normal, Counts counts) {
   if (!(r.above(point) > 0)) return 0;
@@ -48,10 +49,12 @@ double formFactorTo(const Rectangle& r, double filled, const V3d& point, const V
   return factor / 5 * filled / kPi;
 }
 
-// The distance at which a ray (direction: unit) meets the rectangle's front within `farthest`; else kFarAway.
+// The distance at which a ray (direction: unit) meets the front of the rectangle; kFarAway if it does not
+// within `farthest`.
 double distanceTo(const Rectangle& r, const V3d& origin, const V3d& direction, double farthest = kFarAway);
 
-// The density per sr, in a direction from a point, of directions to uniform points on the rectangle's front.
+// The density per sr, in a direction from a point, of the directions to uniformly distributed points on the
+// rectangle's front.
 double densityTo(const Rectangle& r, const V3d& point, const V3d& direction);
 
 // The smallest rectangle around coplanar polygons that is aligned with the longest edge of the first polygon.

@@ -14,8 +14,9 @@ struct Caps {
   // The cap is half of this for spots of light from openings, and for highlights on cylinders, which cost
   // more. Chosen by experiment: each aimed ray evaluates all their densities. Insensitive.
   static constexpr size_t kAimed = 64;
-  // Cap on the panes and holes that are probed, on the balls and cylinders examined for highlights, and on
-  // the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept. Insensitive.
+  // Cap on the panes and holes that are probed, on the balls and cylinders that are examined for highlights,
+  // and on the targets of a point that may be fitted (Targets::kFewestFitted); the largest are kept.
+  // Insensitive.
   static constexpr size_t kAsked = 1024;
   // Number of rays that measure a mean brightness: on each side of a pane, around a point in sphere mode, and
   // (as a minimum) to each opening that may matter there. Chosen by experiment. A mean is then known within
@@ -87,7 +88,8 @@ struct Openings {
 // Openings as light sources of paths from both ends (portals.cpp).
 struct Portals {
   // An opening with less than this fraction of the radiance of the brightest one is no portal: paths from the
-  // eye find its light. Rays to a false opening, such as a hole in the plane of desk tops, would be lost.
+  // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
+  // classroom, would be lost.
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
 };
 

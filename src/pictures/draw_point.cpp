@@ -183,7 +183,8 @@ void smoothDirect(Pixels& pixels) {
   for (size_t i = 0; i < light.size(); ++i) light[i] -= indirect[i];
 }
 
-// Marks pixels in soft shadows whose direct light differs from nearby by more than smoothing may remove.
+// Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
+// smoothing may remove.
 std::vector<bool> noisyShadows(const Pixels& pixels) {
   const int width = pixels.seen.width, height = pixels.seen.height;
   std::vector<bool> marked(pixels.middles.size(), false);

@@ -16,9 +16,11 @@ using DrawingProgress = std::function<void(double done)>;
 // Draws the radiance (W/sr/m2) that arrives at a point (world), in red, green and blue.
 // - One ray is traced through the middle of each pixel, four more where the picture has edges or noise, and
 //   another four where the first four differ. forScreen: the rays of a pixel are averaged as displayed
-//   colors, by the ToneCurve of `white`, so that bright windows and luminaires have smooth edges.
+//   colors, by the ToneCurve of `white`, so that windows and luminaires have smooth edges however bright they
+//   are.
 // - The indirect light of visible surfaces is gathered at one pixel in four, or in nine without daylight,
-//   from -ad + -as rays. Nearby pixels share it, rough reflections and the light of sources (smooth_light.h).
+//   from -ad + -as rays. Nearby pixels share it, and also rough reflections and the light of sources
+//   (smooth_light.h).
 // - Directly visible sources (SeenSources) that are so small that pixels may miss them are sampled
 //   separately. Their light is added to the pixels that they cover, so that none is lost and none looks
 //   enlarged.

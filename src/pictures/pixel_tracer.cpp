@@ -43,7 +43,8 @@ int panesBefore(const RayEnd& end, const Scene& scene) {
 
 }  // namespace
 
-// Not separated in a participating medium, because the observer sees parts before the medium attenuates them.
+// Components are not separated in a participating medium, because the observer sees them before the medium
+// attenuates them.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),

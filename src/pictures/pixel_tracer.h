@@ -22,7 +22,8 @@ struct PixelSample {
 // The components to compute. Where components cannot be separated, `rest` always contains all light.
 enum class PixelParts : uint8_t { all, noIndirect, restAlone };
 
-// Traces the rays of a picture. Separates the components that vary little, so that pixels may share them.
+// Traces the rays of a picture. Separates the components that vary little between pixels, so that neighboring
+// pixels may share them.
 class PixelTracer {
  public:
   // Keeps references.

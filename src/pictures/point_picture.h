@@ -1,5 +1,6 @@
 #pragma once
 // Pictures of the view from a point, in all directions or in perspective: projections, exposure and names.
+// draw_point.h draws them.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,14 +10,17 @@
 
 namespace rsphere {
 
+// The projection of directions onto a picture.
 enum class Projection {
   // The sphere as seen from within: +y is in the middle, +x to its right at a quarter of the width, -y at
   // both edges. Columns are even steps of azimuth; rows descend from the zenith +z to the nadir.
   latitudeLongitude,
   // RADIANCE's view -vta -vh 360 -vv 360 -vd 0 1 0 -vu 0 0 1: +y is in the middle and +z above it. The angle
-  // from +y is proportional to the distance from the middle, pi at the rim. Corners are black.
+  // from +y is proportional to the distance from the middle, and reaches pi at the rim. The corners are
+  // black.
   angularFisheye,
-  // What a level camera shows: RADIANCE's view -vtv -vd 0 1 0 -vu 0 0 1. Vertical edges are vertical.
+  // What a camera shows that is held level: RADIANCE's view -vtv -vd 0 1 0 -vu 0 0 1. Vertical edges are
+  // vertical.
   perspective
 };
 
@@ -89,6 +93,7 @@ class ToneCurve {
   double white_ = 0;  // exposed brightness that is shown as 1; 0: colors are proportional to radiance
 };
 
+// Converts radiance to screen colors.
 void toScreen(Raster& raster, const ToneCurve& curve);
 
 // The pattern with its one %d (or %4d, %04d and so on) replaced by the record number, and %% by %. Throws

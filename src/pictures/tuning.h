@@ -22,7 +22,8 @@ struct Pictures {
   // minimum per source: measured. With 4, lamps of 4 to 16 pixels lose 3 to 9% of their light, with 16 1 to
   // 3.5%. Insensitive.
   static constexpr double kSmallest = 16;
-  // Offsets (pixels) of the rays that look for the background behind a small source: chosen by experiment.
+  // Offsets from the middle of a pixel (in pixels) of the rays that look for the background behind a small
+  // source: chosen by experiment.
   static constexpr std::array<std::array<double, 2>, 4> kBeside = {
       {{-.4, -.4}, {.4, .4}, {-.4, .4}, {.4, -.4}}};
   // Side of a square of pixels (in pixels), of which one gathers indirect light, with 32 rays: derived. It is
@@ -48,7 +49,8 @@ struct Pictures {
   // noise (picture from point), but with 3 a glossy desk below a window looks rougher.
   static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
-  // Least cosine between normals of pixels that share gloss: derived, 2 degrees, less than a shared lobe.
+  // Least cosine between the normals of pixels that share gloss: derived. It corresponds to 2 degrees, less
+  // than the width of a shared lobe.
   static constexpr float kSameGlossNormal = .9994f;
   // Visible difference between neighboring pixels, on an sRGB scale of 0 to 1. Where it is exceeded, four
   // rays near the corners of the pixel are added; if these differ as much, four near the middles of its

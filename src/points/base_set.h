@@ -19,7 +19,8 @@ struct BaseSet {
   Kernels kernels{};                     // zones, and the quantities that have standard errors
 };
 
-// Makes -Sn directions, rotated by -Sr. Their solid angles are equal (-Sw h) or those of Voronoi cells.
+// Makes -Sn directions, rotated by -Sr. With -Sw h their solid angles are equal, otherwise those of their
+// Voronoi cells.
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 
 // The pairs of directions whose Voronoi cells share a side, in the last query of the workspace.

@@ -66,7 +66,8 @@ double ownPartOfSecond(double m) {
   return 1 / (std::pow(1 + 1 / m, 2) + 4 / m * std::pow(1 - 1 / m, 2) + kFarther);
 }
 
-// The neighbours of the first `count` points of evenly() in the unit square, whose opposite sides are apart.
+// The neighbours of the first `count` points of evenly() in the unit square. Points at its opposite sides are
+// not neighbours.
 Neighbours latticeNeighbours(size_t count, const Imath::V2d& shift) {
   constexpr size_t kSteps = 3;  // a point has six neighbours, in three pairs of opposite steps
   std::vector<std::vector<uint32_t>> around(count);
@@ -100,7 +101,8 @@ double sharing(std::span<const DirectionSample> samples, const SpectralSampling*
     second += square;
     fourth += square * square;
   }
-  constexpr double kUniform = 1.8;  // fourth moment of uniform values over the square of the second
+  constexpr double kUniform = 1.8;  // fourth moment of uniformly distributed values over the square of the
+                                    // second
   return fourth > 0 ? std::min(n, kUniform * second * second / fourth) : n;
 }
 

@@ -58,7 +58,8 @@ struct KernelVariances {
   // The same for zones alone. cell: as for Moments::add().
   void addToZones(const V3d& direction, double cell, const Variance& variance);
   // Adds varianceOf(quantity) to each quantity: the variance of the mean of samples that are weighted by it.
-  // Evenly spread directions integrate a constant radiance without error, but not its weight.
+  // Evenly spread directions integrate a radiance that does not vary without an error, but not what it is
+  // weighted by.
   template <class VarianceOf>
   void addQuantities(const VarianceOf& varianceOf) {
     for (size_t i = 0; i < Kernels::kQuantities; ++i)
@@ -71,7 +72,8 @@ struct KernelVariances {
 std::vector<DirectionSample> weighted(std::span<const DirectionSample> samples, const Kernels& kernels,
                                       size_t quantity);
 
-// The neighbours of each direction: of direction i, neighbour[first[i]] to neighbour[first[i + 1] - 1].
+// The neighbours of each direction. Those of direction i are neighbour[first[i]] to neighbour[first[i + 1] -
+// 1].
 struct Neighbours {
   std::vector<uint32_t> first, neighbour;
 };

@@ -7,7 +7,8 @@
 
 namespace rsphere {
 
-// Integrals over all directions, for the quantities of PointAnswer. L: radiance, d: direction; world axes.
+// Integrals over all directions, from which the quantities of PointAnswer are computed. L is radiance, d a
+// unit direction; world axes.
 struct Moments {
   Irradiance total;        // of L
   Irradiance cylindrical;  // of L sin(angle to z)

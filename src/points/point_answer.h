@@ -38,7 +38,8 @@ struct PointAnswer {
   };
   std::vector<OwnError> zoneErrors;      // empty unless standard errors are wanted
   std::vector<OwnError> quantityErrors;  // W/m2, by Kernels::Quantity; empty unless wanted
-  bool isDark = false;       // almost no direction found light, or -Sa stopped for lack of it
+  bool isDark = false;       // almost no direction found light, or -Sa stopped because there was so
+                             // little
   double relativeError = 0;  // brightnessError relative to the mean's brightness, or to the floor of -Sa
   bool reached = true;       // whether the standard error requested with -Sa was reached
 };

@@ -2,7 +2,8 @@
 // The quantities of an answer at a point, by their -o letters. The command line, the writer of answers,
 // -defaults and the manual take them from one table: a new quantity is a row of it.
 //
-// The letter e is the standard error of the quantity before it; of the mean after none, o or k.
+// The letter e is the standard error of the quantity before it: of the mean if there is none before it, or
+// one without errors (o, k).
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -16,7 +17,8 @@
 namespace rsphere {
 
 struct PointQuantity {
-  // place: coordinates. colors, errors: by `each`. vector, vectorErrors: of light. count: of directions.
+  // place: coordinates. colors, errors: by `each`. vector, vectorErrors: the light vector and its errors.
+  // count: of directions.
   enum class Form : uint8_t { place, colors, errors, vector, vectorErrors, count };
   // Takes a color, or the standard error of a color and that of its brightness.
   using Add = FunctionRef<void(const Color& color, double ofBrightness)>;
@@ -43,6 +45,7 @@ std::span<const PointQuantity> pointQuantities();
 const PointQuantity* pointQuantity(char letter);
 // The quantities of these letters, in their order. REQUIRES that each is the letter of a quantity.
 std::vector<const PointQuantity*> pointQuantities(std::string_view letters);
+// Whether one of the letters is a standard error.
 bool haveErrors(std::string_view letters);
 // The quantities whose standard errors do not follow from that of the mean.
 Kernels::Some ownErrors(std::string_view letters);

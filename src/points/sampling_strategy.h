@@ -44,7 +44,8 @@ class SetAtPoint {
 struct SampledSet {
   std::vector<DirectionSample> samples;
   std::vector<TracedRay> rays;  // of the samples, in the same order; kept with -Sd only
-  Moments excess;               // light found by glances, minus DirectionSample::glanced; or 0
+  Moments excess;               // light found by glances, minus the light of glances along samples
+                                // (DirectionSample::glanced); 0 without glances
   Variance variance;            // of moments().total; 0 unless standard errors are wanted
   SharedError shared;           // error due to light vertices, not in `variance`
   KernelVariances ofKernels;    // `variance` by zone and quantity (kernels.h)
@@ -58,7 +59,8 @@ struct SampledSet {
   Moments moments(const BaseSet& base, const std::optional<V3d>& gaze = {}) const;
 };
 
-// Traces each direction once, with its solid angle (sr). Direction i uses the set's random stream i.
+// Traces each direction once and gives it its solid angle (sr). Direction i uses random numbers of stream i
+// of the set.
 SampledSet traceEach(const SetAtPoint& set, std::span<const V3d> directions,
                      std::span<const double> solidAngles, bool keepRays, PathTracer& tracer);
 

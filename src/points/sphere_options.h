@@ -13,7 +13,8 @@ namespace rsphere {
 struct GlareOptions {
   bool wanted = false;  // -Su
   // -Sub  Luminance above which regions other than light sources are glare sources. Values above kFixed are
-  // in cd/m2. Smaller values are factors on the mean luminance of the task or, without one, of the view.
+  // in cd/m2. Smaller values are factors on the mean luminance of the task or, without a task, of the whole
+  // view.
   double threshold = 2000;
   // -Sut  The task is a disk around the direction this far below the line of sight; degrees.
   double taskBelow = 0;
@@ -26,6 +27,7 @@ struct GlareOptions {
 // How the directions of a point are weighted.
 enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes /* c */ };
 
+// The options of the estimator of sphere mode.
 struct SphereOptions {
   int baseDirections = 2048;                    // -Sn  1 to 1,000,000
   int mostDirections = 4096;                    // -Sx  of one set
@@ -51,8 +53,9 @@ struct SphereOptions {
 
   // The rays of each patch of the coarse solution (RayOptions::leastForPatches). Their number grows with the
   // number of directions and with the accuracy, so that the error common to all points falls with the error
-  // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): actual errors of answers are .8
-  // to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their number.
+  // of directions. Measured in four daylit rooms (-aa .1, -Sn 512 to 4096): the actual errors of answers are
+  // .8 to 1.3 times the stated ones, and the error of directions alone falls with the power .75 of their
+  // number.
   int raysForPatches() const {
     constexpr double kUsual = 1024, kUsualDirections = 2048, kMost = 1e6;
     const double part = baseDirections / kUsualDirections;

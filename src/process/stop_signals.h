@@ -35,7 +35,8 @@ class StopSignals {
   }
   int descriptor() const;
 
-  // The signal in rtrace's words, such as "Terminate", for the caller's message; empty if none was raised.
+  // The name of the signal in rtrace's words, such as "Terminate"; empty if no signal was raised. The caller
+  // must then write the message.
   std::string name() const;
 };
 

@@ -72,7 +72,8 @@ auto withoutLock(SomeOptions& options, const Work& work) {
 }
 
 // The array of a quantity, whose memory it takes over. It has a row for each record, divided by each of
-// `parts` that is not 0 (contributors, faces); rows of one number become it. None if it was not requested.
+// `parts` that is not 0 (contributors, faces); rows of a single number become that number. None if the
+// quantity was not requested.
 py::object arrayOf(Quantity&& quantity, size_t records, std::initializer_list<size_t> parts = {}) {
   if (quantity.columns == 0) return py::none();
   std::vector<size_t> shape{records};
@@ -210,7 +211,8 @@ py::object sphere(const py::object& self, const py::object& given, const py::kwa
   return arraysOf(withoutLock(options, [&] { return scene.sphere(points, options); }));
 }
 
-// Whether all items are names of modifiers. Raises TypeError for a single name: its letters would be names.
+// Whether all items are names of modifiers. Raises TypeError for a single name, because its letters would be
+// taken for names.
 bool areNames(const py::object& given, const std::string& argument) {
   if (py::isinstance<py::str>(given))
     throw py::type_error(argument + " must be a list: [" + py::repr(given).cast<std::string>() + "]");

@@ -9,14 +9,16 @@ namespace rsphere {
 
 class VertexLight;
 
-// The light source that is visible along a primary ray, and the surface that mirrors it; kNone: none.
+// The light source that is visible along a primary ray, and the surface that mirrors it; kNone if there is
+// none.
 struct ShownSource {
   SurfaceId source;
   SurfaceId mirror;
   bool operator==(const ShownSource&) const = default;
 };
 
-// Called for every finished ray of a path (rtrace's -ot, -oT). The result is not yet attenuated by a medium.
+// Called for every finished ray of a path (rtrace's -ot, -oT). The result is not yet attenuated by the medium
+// along the ray.
 using RayObserver = std::function<void(const RayEnd& end, const RayResult& result)>;
 
 // Selects the shadow rays that the observer is called for.

@@ -20,8 +20,9 @@ inline uint64_t rotationBits(const RayOptions& options) {
 // constant after construction. Keeps a reference to the scene.
 class PreparedScene {
  public:
-  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn: of
-  // SurfaceFunctions and LightSources, and of names of -ae and -ai that are the modifier of no surface.
+  // basicRadiance: refraction does not scale radiance by the square of the refractive index (-Sb). warn:
+  // receives the warnings of SurfaceFunctions and LightSources, and of names of -ae and -ai that are the
+  // modifier of no surface.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
   // Prepares the scene of `other` with other options, without warnings. They share the tracer, which takes

@@ -14,7 +14,8 @@
 
 namespace rsphere {
 
-// Light sources scattered into a ray, as indices in MistSources::all(). Unused elements are not initialized.
+// Light sources whose light is scattered into a ray, as indices in MistSources::all(). Unused elements are
+// neither initialized nor copied.
 struct ScatteringSources {
   static constexpr size_t kMost = 32;  // the limit in RADIANCE
   uint8_t count = 0;
@@ -66,7 +67,8 @@ struct RayQuery {
 };
 
 // Whether a path has met only "known" surfaces, which bidirectional estimation can handle (PlainSurfaces),
-// and if so, whether paths from both ends estimate the reflected light at the last diffuse surface.
+// and if so, whether paths from both ends estimate the reflected light that arrives at the last diffuse
+// surface.
 enum class Known : uint8_t {
   no,
   joined,   // they do: light vertices there are connected to the eye, or to the previous surface
@@ -96,7 +98,8 @@ struct PathContext {
 struct SurfaceHit {
   SurfaceId surface;  // kNone: nothing
   double length = kFarAway;
-  // The hit, or the end of a ray with a limit (RayQuery::farthest). For no hit, or a distant one: its origin.
+  // The hit, or the end of a ray with a limit (RayQuery::farthest). If the ray hits nothing, or a distant
+  // source: its origin.
   V3d point{0, 0, 0};
   double u = 0, v = 0;
   PlacementPath path;   // the instances that contain the surface

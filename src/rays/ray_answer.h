@@ -29,9 +29,10 @@ class SurfaceName {
   std::string_view text_ = "*";
 };
 
-// The quantities of a ray that letters of -o (in ray mode) and of -Sd report. A quantity whose letter is not
-// selected may have its default value. Names are "*" if nothing was hit; they refer to the scene. With -i and
-// -I, radiances are those of a diffuse surface of reflectance pi, so that they equal its irradiance (W/m2).
+// The quantities of a ray that the letters of -o (in ray mode) and of -Sd report. A quantity whose letter is
+// not selected may have its default value. Names are "*" if nothing was hit; they refer to the scene. With -i
+// and -I, radiances are those of a diffuse surface of reflectance pi, so that they equal its irradiance
+// (W/m2).
 struct RayAnswer {
   V3d origin{0, 0, 0}, direction{0, 0, 0};  // o d
   Radiance value;                           // v  with -i and -I equal to the irradiance

@@ -27,7 +27,8 @@ struct PathPart {
 
 class RayFollower {
  public:
-  // The radiance that arrives at a ray's origin: computed at its end, and attenuated along the ray.
+  // The radiance that arrives at a ray's origin. It is computed at the ray's end, and attenuated along the
+  // ray.
   RayResult follow(const RayQuery& ray, const PathContext& context) {
     RayEnd end(ray, context);
     return follow(end);
@@ -47,7 +48,8 @@ class RayFollower {
   // the chain has no material. result: the ray's result, initially empty.
   virtual bool shade(RayEnd& end, ModifierId modifier, RayResult& result) = 0;
 
-  // Begins the path of a gather, valid until the next one begins. normal: at the gather's site (unit).
+  // Begins the path of a gather. It remains valid until the next one begins. normal: at the gather's site
+  // (unit).
   virtual InnerPath beginGather(uint64_t seed, const V3d& normal) = 0;
 
  protected:

@@ -12,13 +12,16 @@ namespace rsphere {
 
 // The mean reflectance of surfaces: a usual value for rooms, which RADIANCE uses, too. With interpolated
 // light, it is the weight of each indirect ray relative to its parent, instead of the small weight of one
-// among many directions. The weight limit then ends paths after some bounces, for any number of directions.
+// among many directions. The weight limit then ends paths after some bounces, independently of the number of
+// directions.
 inline constexpr double kMeanReflectance = .5;
 
-// A diffuse material of reflectance pi, whose radiance is the irradiance (-i, -I).
+// A diffuse material of reflectance pi. Its radiance, pi times the mean incident radiance, is equal to the
+// irradiance (-i, -I).
 inline const Opaque kIrradianceMeter{Color(kPi, kPi, kPi), 0, 0, false};
 
-// The apparent distance of the object along a ray: of a mirrored one with over half of the radiance.
+// The apparent distance of the object seen along a ray: of the mirrored object if this contributes more than
+// half of the radiance.
 inline double apparentLength(const RayResult& seen) {
   return brightness(seen.mirrored) > .5 * brightness(seen.value) ? seen.mirroredLength
                                                                  : seen.unmirroredLength;

@@ -42,7 +42,8 @@ struct RayOptions {
   int ambientWeight = 0;          // -aw
   // The number of rays of a patch of the coarse solution is computed as if -ad + -as were at least this. If
   // it is not 0, patches are also used at the first diffuse surface (FirstBounce::fromPatches). Not an
-  // option: sphere mode sets it, whose directions each have a small -ad and share a coarse solution.
+  // option: sphere mode sets it, because each of its directions has a small -ad, and all share one coarse
+  // solution.
   int leastForPatches = 0;
   // If it is not 0, used instead of -ad + -as for the number of rays of a patch. Not an option: set for -Sa.
   double raysForPatches = 0;
@@ -51,7 +52,8 @@ struct RayOptions {
   std::string ambientFile;  // -af
   double fieldMemory = 0;   // -Sm  MB; 0: no limit
   std::vector<std::string> ambientExcluded, ambientIncluded;  // -ae -aE, -ai -aI; at least one is empty
-  // The number of bounces, or reflections, after which no light is left: even of .99 reflected, 4e-5 remains.
+  // The number of diffuse bounces, or of reflections, after which no light is left: even of .99 reflected,
+  // 4e-5 remains.
   static constexpr int kAllBounces = 1000;
   // limits
   int reflectionLimit = -10;  // -lr  absolute value: limit, 0: none; not above 0: Russian roulette below -lw

@@ -17,6 +17,7 @@ class MistSources {
   // warn: called for names that no light source has. Throws rad::Error if mists name more than 65535 sources.
   MistSources(const Scene& scene, const LightSources& lights, const rad::Warn& warn);
 
+  // All light sources that are named by any mist.
   const std::vector<LightId>& all() const { return all_; }
   // The light sources that one mist names, as indices in all().
   const std::vector<uint16_t>& of(const Mist& mist) const { return ofMist_[mist.number]; }
@@ -29,7 +30,8 @@ class MistSources {
 // The light sources of a scene, with data about them that tracing needs. Shared by all threads.
 class SceneLights : public LightSources {
  public:
-  // relays: -dr. warn: for LightSources and MistSources. Keeps references to the scene and the tracer.
+  // relays: -dr. warn: receives the warnings of LightSources and MistSources. Keeps references to the scene
+  // and the tracer.
   SceneLights(const Scene& scene, const Tracer& tracer, const SurfaceFunctions& functions, int relays,
               const rad::Warn& warn);
   SceneLights(const SceneLights&) = delete;
@@ -40,7 +42,8 @@ class SceneLights : public LightSources {
     const auto number = luminous_.numberOf(surface);
     return number ? LightId(*number) : kNone;
   }
-  // The radiance of a light source if it is independent of point and direction; null: it depends on the ray.
+  // The radiance of a light source if it does not depend on point and direction; null if it must be computed
+  // for each ray.
   const Radiance* constantRadiance(LightId source) const {
     return constantRadiance_[source] ? &*constantRadiance_[source] : nullptr;
   }
@@ -48,7 +51,8 @@ class SceneLights : public LightSources {
   const std::vector<SurfaceId>& distant() const { return distant_; }
   const PresumedShadows& presumedShadows() const { return presumedShadows_; }
   const SourceChoice& choice() const { return choice_; }
-  // Finds light sources that are hidden from a point, by number. A virtual source is hidden if its relay is.
+  // Finds light sources that are hidden from a point, by their numbers. A virtual source is hidden if its
+  // relay is hidden.
   const HiddenBoxes& hidden() const { return hidden_; }
   const MistSources& ofMists() const { return ofMists_; }
 

@@ -15,7 +15,8 @@ bool sharesHighlights(const PreparedScene& prepared, LightId source);
 
 // The weight (0 to 1) of samples of the lobe in the estimate of a highlight's light from a direction.
 // distance (world units), cosine: of the hit on the source in this direction. density: of the lobe's samples
-// in this direction, per sr. 0 if the lobe is so much wider than the source that shadow rays are better.
+// in this direction, per sr. The weight is 0 if the lobe is so much wider than the source that shadow rays
+// are better.
 double shareOfLobe(const LightSource& source, double distance, double cosine, double density);
 
 // The radiance of the source that a lobe's sample hits first, without its weight. Black if the sample hit no

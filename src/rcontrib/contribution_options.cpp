@@ -76,7 +76,8 @@ constexpr OptionEntry kContributionOptions[] = {
     {{"-r", "", "complete existing files|start anew", Group::companion, of<&ContributionOptions::recovers>}},
 };
 
-// What -features lists in addition to the features of all programs, in the words of RADIANCE's rcontrib.
+// The features that -features lists in addition to those of all programs, in the words of RADIANCE's
+// rcontrib.
 constexpr std::string_view kFeatures[] = {
     "Hyperspectral",    "ShadowCache",        "Multiprocessing",       "Accumulation",
     "Summation",        "Recovery",           "ImmediateIrradiance",   "ProgressReporting",

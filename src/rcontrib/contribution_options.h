@@ -29,6 +29,7 @@ struct ContributionOptions : Options {
   bool overwrites = false;           // -fo
   bool recovers = false;             // -r
 
+  // Whether records have standard errors.
   bool hasErrors() const;
   // Whether -x and -y are numbers of records. With -c 0 there is a single record, the sum of all rays.
   bool countsRecords() const { return raysPerRecord > 0; }
@@ -42,7 +43,8 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
 // Describes rcontrib for parseCompanion(), with ContributionOptions.
 const Companion& contributionCompanion();
 
-// Completes options that depend on others. Throws rad::Error if they contradict others or name no modifier.
+// Completes options that depend on each other. Throws rad::Error if they contradict each other or name no
+// modifier.
 void finish(ContributionOptions& options);
 
 }  // namespace rsphere

@@ -21,7 +21,8 @@
 namespace rsphere {
 namespace {
 
-// Bytes collected in all outputs together before they are written: there may be thousands of pictures.
+// Number of bytes that are collected in all outputs together before they are written: a run may have
+// thousands of pictures.
 constexpr size_t kMostPending = size_t{16} << 20;
 
 [[noreturn]] void systemError(const std::string& name, std::string_view what) {
@@ -89,7 +90,8 @@ class ContributionOutputs::Output {
     writer = std::make_unique<RecordWriter>(descriptor_, plan.name);
   }
 
-  // Opens a file with records, to complete it. Returns their number; empty if there is no file or no byte.
+  // Opens a file with records, to complete it. Returns their number; empty if the file does not exist or has
+  // no bytes.
   std::optional<uint64_t> openToComplete(const ContributionOptions& options, int components) {
     descriptor_ = ::open(plan.name.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor_ < 0 && errno == ENOENT) return std::nullopt;

@@ -23,7 +23,8 @@ class ContributionOutputs {
   // The number of records that the files already contained.
   uint64_t recovered() const { return recovered_; }
 
-  // Appends a record: the values of all columns, and any standard errors (-oe). Throws like RecordWriter.
+  // Appends a record: the values of all columns, and their standard errors if an output has them (-oe).
+  // Throws like RecordWriter.
   void write(std::span<const double> values, std::span<const double> errors);
   void flush();
   void holdUntilFlush(bool hold);

@@ -104,7 +104,8 @@ class Planner {
     bool inFileName;  // by %s
   };
 
-  // As in RADIANCE, the header names the modifier if the file's name does, or if records have one value.
+  // As in RADIANCE, the header names the modifier if the name of the file does, or if the file has one value
+  // per record.
   void join(const std::string& name, const Modifier& modifier, ColumnRange columns,
             const std::optional<uint64_t>& number) {
     const auto [found, isNew] = byName_.emplace(name, plans_.size());

@@ -24,8 +24,9 @@ struct OutputPlan {
   uint32_t columnCount() const;
 };
 
-// Names the outputs according to -o and -oe, in the order of first use. Throws rad::Error for other formats
-// than %s and %d, for several values per pixel of a picture, and for an output of values and standard errors.
+// Names the outputs according to -o and -oe, in the order of first use. Throws rad::Error if one contains
+// other formats than %s and %d, if a picture would have several values per pixel, or if an output would have
+// values and standard errors.
 std::vector<OutputPlan> planOutputs(const ContributionOptions& options, const Tracked& tracked);
 
 }  // namespace rsphere

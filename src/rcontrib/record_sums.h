@@ -9,12 +9,14 @@
 
 namespace rsphere {
 
-// Appends the contributions of a ray to `bytes`, as RecordSums reads them. variances: of its values, or none.
+// Appends the contributions of a ray to `bytes`, in the format that RecordSums reads. variances: of its
+// values, or none.
 void appendContributions(std::string& bytes, const ContributionList& list,
                          std::span<const double> variances = {});
 
 // Sums the contributions of rays, in their order, to records. It stores all bins of a single record,
-// regardless of the number of threads. Threads only pass the bins that a ray has reached.
+// regardless of the number of threads. The data passed by threads only contain the bins that a ray has
+// reached.
 //
 // The standard errors (-oe) of a record of one ray are those of the ray. Those of a record of several rays
 // follow from the spread of the rays, which are samples of the place or the pixel that the record stands for.

@@ -29,7 +29,8 @@ std::vector<std::string> linesOf(std::string_view text) {
   return lines;
 }
 
-// The words of the last command line of rcontrib in a header, if any. A word in quotes may contain line ends.
+// The words of the last command line of rcontrib in a header; none if there is no such line. A word in quotes
+// may contain line ends.
 std::vector<std::string> commandIn(const std::vector<std::string>& header) {
   constexpr std::string_view kProgram = "rcontrib";
   std::vector<std::string> words;

@@ -31,7 +31,8 @@ struct ColorOptions {
   int bands = 3;                         // -cs  3 to kMostBands
   double shortest = 380, longest = 780;  // -cw  nm
 
-  // The division of the spectrum; null with three channels. REQUIRES that checkColors() did not throw.
+  // The division of the spectrum; null if the run has three channels. REQUIRES that checkColors() did not
+  // throw.
   const SpectralSampling* sampling() const {
     return bands > 3 ? &spectralSampling(bands, shortest, longest) : nullptr;
   }
@@ -64,7 +65,8 @@ class OutputColors {
   // Writes without conversion to lumens.
   void write(RecordText& text, const Coefficient& coefficient) const { write(text, coefficient.color, 1); }
 
-  // Writes a standard error: of each channel or band, or of lumens (-pY). REQUIRES: haveStandardErrors().
+  // Writes a standard error: of each channel or band or, with -pY, of the brightness in lumens. REQUIRES:
+  // haveStandardErrors().
   void writeError(RecordText& text, const Radiance& error, double brightness) const;
 
   // The header lines that describe the colors, with line ends; and the FORMAT of their pixels (-fc).
@@ -85,7 +87,8 @@ class OutputColors {
   std::vector<double> seen_;  // -pE: of its bands
 };
 
-// Throws rad::Error with rtrace's text if bands or limits are impossible, or if primaries span no gamut.
+// Throws rad::Error with rtrace's text if the bands or limits are impossible, or if the primaries span no
+// gamut.
 void checkColors(const ColorOptions& options);
 
 // Whether colors have standard errors (-oe): only unconverted channels or bands, and luminance. The error of

@@ -86,7 +86,8 @@ double RecordReader::shareRead() const {
   return static_cast<double>(at - static_cast<off_t>(end_ - begin_)) / static_cast<double>(status.st_size);
 }
 
-// Makes room in the block and reads what has arrived, at least a byte. False at the end or if interrupted.
+// Makes room in the block and reads the input that has arrived; waits for the first byte. Returns false at
+// the end of input or if interrupted.
 bool RecordReader::refill() {
   if (atEnd_ || interrupted_) return false;
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
@@ -129,7 +130,8 @@ void RecordReader::malformed(std::string_view word) const {
                                counted(perRecord_), rad::printable(word, kShownWord)));
 }
 
-// A fast path for most text after the first line: reads records up to the first that is not of plain numbers.
+// A fast path for most text after the first line: reads records in the block up to the first that does not
+// consist of plain numbers.
 size_t RecordReader::readPlain(std::vector<double>& numbers, size_t most) {
   const char* at = block_.data() + begin_;
   const char* const stop = block_.data() + end_;
@@ -202,7 +204,8 @@ size_t RecordReader::readText(std::vector<double>& numbers, size_t most) {
   return count;
 }
 
-// Reads the numbers of a line into partial_. Throws rad::Error if it is no record. whole: with its end.
+// Reads the numbers of a line into partial_. Throws rad::Error if the line is not a record. whole: whether
+// the end of the line has arrived.
 void RecordReader::readLine(std::string_view line, bool whole) {
   int count = 0;
   for (size_t at = 0;;) {

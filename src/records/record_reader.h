@@ -13,7 +13,8 @@
 namespace rsphere {
 
 // The meaning of line ends in text records. They are blanks, as in rtrace, or they end records: each line
-// that is not blank is then one record, and one with too many or too few columns is reported.
+// that is not blank is then one record, and a line with too many or too few columns is reported instead of
+// shifting all later numbers.
 enum class LineEnds : uint8_t { areBlanks, endRecords };
 
 // Reads records of numbers from a file descriptor: text (numbers between white space, which may be quoted) or
@@ -40,7 +41,8 @@ class RecordReader {
   // Throws rad::Error with Status::system if read(2) fails.
   size_t read(std::vector<double>& numbers, size_t most);
 
-  // Waits for the next record. Returns how many have arrived, at most `most`, for the next read().
+  // Waits for the next record. Returns the number of records that have arrived, at most `most`, which the
+  // next read() will return.
   size_t arrived(size_t most);
 
   // `waiting` is called with true before the reader waits for input, and with false when it stops waiting.
@@ -50,13 +52,15 @@ class RecordReader {
   void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
   bool interrupted() const { return interrupted_; }
 
+  // Number of records returned.
   uint64_t records() const { return records_; }
 
   // The fraction of a regular file that has been returned, 0 to 1; 0 for other input.
   double shareRead() const;
 
   // The first line of text that is not blank, after it has been read to its end. The number of values in it
-  // shows whether records have the expected columns. Empty for binary input, and if line ends end records.
+  // shows whether records have the expected columns. Empty for binary input, and if line ends are the ends of
+  // records.
   struct FirstLine {
     uint64_t line = 1;
     int numbers = 0;

@@ -60,7 +60,8 @@ class PrimitiveArguments {
 std::string placeOf(const rad::Description& description, rad::PrimitiveId primitive);
 std::string placeOf(const rad::Description& description, const rad::Primitive& primitive);
 
-// The transform among the arguments: all from the first word that can begin one. Empty if there is none.
+// The transform among the arguments: everything from the first word that can begin one. Empty if there is
+// none.
 Words transformAmong(std::span<const std::string_view> words);
 
 // Reads a transform; the identity if it is empty. Throws rad::Error if it is not a transform.

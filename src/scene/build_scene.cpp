@@ -148,7 +148,8 @@ class Builder {
 
   // ---- octrees and meshes
 
-  // Calls a function that reads the file named by primitive i. If it fails, the error also names i.
+  // Calls a function that reads the file named by primitive i. If it fails, the error also names that
+  // primitive.
   template <class Read>
   std::invoke_result_t<Read> read(PrimitiveId i, const Read& reader) const {
     try {

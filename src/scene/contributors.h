@@ -11,6 +11,7 @@ namespace rsphere {
 // dark. Without names, the scene has no goals. Throws rad::Error if a name is the modifier of no surface.
 void setGoals(Scene& scene, std::span<const std::string> goals);
 
+// The maximum number of contributors of a scene.
 inline constexpr size_t kMostContributors = 1000;
 
 // Divides each color into parts, one for the light of each contributor (BandScheme::ofContributors), and sets

@@ -45,7 +45,8 @@ struct Glass {
   double refraction = 1.52;
 };
 
-// `functions` in the materials below: the index of the material's modifier, for SurfaceFunctions.
+// `functions` in the materials below: the index of the material's modifier, with which SurfaceFunctions
+// evaluates its functions.
 
 // plastic2, metal2 and trans2: elliptical highlights. The functions give a direction, which is projected onto
 // the surface; the roughnesses along it and across it are both above 0.
@@ -104,7 +105,8 @@ struct BsdfMaterial {
   ModifierId functions = kNone;
 };
 
-// The shading of an illum or mirror for rays that neither sample it as a source nor form a virtual source.
+// The shading of an illum or mirror for rays that neither sample it as a light source nor are mirrored as
+// part of a virtual source.
 struct Alternate {
   enum class Kind : uint8_t { none, pass, modifier } kind = Kind::none;
   ModifierId modifier = kNone;  // for Kind::modifier
@@ -119,8 +121,9 @@ struct Prism {
   int images = 1;
   ModifierId functions = kNone;
 };
-// Surfaces with certain modifiers do not exist between the front and the back of antimatter. cut: shading
-// where its back cuts through a volume enclosed by these surfaces; with Kind::pass, the cut is open.
+// Surfaces with certain modifiers do not exist between the front and the back of antimatter. cut: shading of
+// the places where its back cuts through a volume enclosed by these surfaces; with Kind::pass, the cut is
+// open.
 struct Antimatter {
   uint64_t clips = 0;  // bits of those modifiers, see Surface::clip
   Alternate cut{Alternate::Kind::pass};
@@ -164,7 +167,8 @@ inline bool outsideSpot(const Spotlight& spot, const V3d& towards) {
 using Material = std::variant<Opaque, Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction,
                               WgmdFunction, BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism,
                               Antimatter, Mist, Light, Illum, Glow, Spotlight>;
-// Code for one type of material asserts this number: a new type stops it compiling until someone checks it.
+// Code that handles only one type of material asserts this number: it stops compiling when a type is added,
+// until somebody has checked it.
 inline constexpr size_t kMaterialTypes = std::variant_size_v<Material>;
 
 }  // namespace rsphere

@@ -10,7 +10,8 @@
 
 namespace rsphere {
 
-// Whether rays can pass the material: for the choice between coincident surfaces, and for blockers of light.
+// Whether rays can pass the material. Used to choose between coincident surfaces, and to find the surfaces
+// that may block light completely.
 bool isTransparent(const Material& material);
 
 // The sides on which the material stops every shadow ray. Only the front of opaque materials is included,

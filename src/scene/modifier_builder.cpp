@@ -31,7 +31,8 @@ void ModifierBuilder::beginFile(uint32_t firstPrimitive) {
 ModifierId ModifierBuilder::modifier(PrimitiveId described) {
   if (described == rad::kVoid) return kNone;
   modifierOf_.resize(scene_.description.primitives.size(), kUnknown);
-  // Follows the chain from `described` to void, without recursion because a chain may have any length.
+  // The loop follows the chain from `described` to void. It avoids recursion because a file may contain
+  // chains of any length.
   std::vector<PrimitiveId> chain;
   PrimitiveId next = described;
   while (next != rad::kVoid && modifierOf_[next] == kUnknown) {
@@ -183,7 +184,8 @@ Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& 
   return {Alternate::Kind::pass, kNone};
 }
 
-// The modifier that WGMDfunc names for a component. A component without light needs none.
+// The modifier that WGMDfunc names for a component. None is needed if the component reflects or transmits
+// nothing.
 std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name,
                                                              bool used) {
   if (!used || name == "inherit") return std::nullopt;

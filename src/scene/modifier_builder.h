@@ -15,7 +15,8 @@
 
 namespace rsphere {
 
-// Converts modifiers to Scene::modifiers, each once: those that surfaces use, and those named in arguments.
+// Converts modifiers to Scene::modifiers: those that surfaces use, and those named in their arguments. Each
+// is converted once.
 class ModifierBuilder {
  public:
   // Keeps references to both. The description of the scene may grow between calls.
@@ -30,7 +31,8 @@ class ModifierBuilder {
   // for: wrong arguments, undefined names, modifiers that name each other too deeply, and unsupported types.
   ModifierId modifier(PrimitiveId described);
 
-  // Surface::clip of surfaces with this modifier of the description. REQUIRES: all modifiers are converted.
+  // Surface::clip of surfaces with the modifier at this index of the description. REQUIRES that all modifiers
+  // of the scene have been converted.
   uint64_t clipOf(PrimitiveId described) const;
 
  private:

@@ -31,8 +31,9 @@ using Content = std::variant<Material, Pattern, Texture, Mixture>;
 // A modifier that some surface uses, and the next modifier in its chain (kNone: void).
 struct Modifier {
   Content content;
-  // Arguments of patterns, textures, mixtures and materials with `functions`; null for others. Their files
-  // are read, and functions compiled, when the modifier is first evaluated: shade/surface_functions.h.
+  // Arguments of patterns, textures, mixtures and materials with `functions`; null for others. The files that
+  // they name are read, and functions compiled, when the modifier is first evaluated:
+  // shade/surface_functions.h.
   std::shared_ptr<const EvaluatedArguments> arguments;
   ModifierId next;
   PrimitiveId primitive;   // in Scene::description; for an alias, that of its target
@@ -47,14 +48,16 @@ struct SurfaceGroup {
 
 // A mesh file, stored only once for all its instances.
 struct Mesh {
-  rad::Mesh data;                  // of its materials, only the cube remains; see Scene::description
+  rad::Mesh data;                  // of its materials only the bounding cube remains; the rest is in
+                                   // Scene::description
   std::vector<SurfaceId> facesOf;  // by index of the mesh's material: its MeshFaces, or kNone
 };
 
 // A scene prepared for tracing. It has only the modifiers that are used and the surfaces that can be hit.
 struct Scene {
   rad::FileAccess files;             // the files that modifiers may name
-  rad::Description description;      // of the scene, then octrees and meshes; without vertices, see below
+  rad::Description description;      // of the scene, followed by octrees and meshes; without vertices, see
+                                     // below
   SurfaceList surfaces;              // of each group in turn, then the MeshFaces
   std::vector<SurfaceGroup> groups;  // [0]: the scene itself
   std::vector<Mesh> meshes;
@@ -76,11 +79,13 @@ struct Scene {
   }
   // samePlaceIn() of the scene itself: kSamePlace unless the scene is small.
   double samePlace = kSamePlace;
-  // The total area of these surfaces, one side of each (square world units), without instances and meshes.
+  // The total area of these surfaces, counting one side of each (square world units), without instances and
+  // meshes.
   double area() const;
   // The composition of all placements on the path; the identity for an empty path.
   Placement placementOf(const PlacementPath& path) const;
-  // Whether the surface has a modifier. That of an instance or a mesh applies to all of its contents.
+  // Whether the surface has a modifier. An instance or a mesh with a modifier applies it to all
+  // of its contents.
   bool hasOwnModifier(const Surface& s) const { return s.finish.described != rad::kVoid; }
   // The name of a surface. In scenes of more than kFewSurfaces it is decoded, which takes .1 microseconds.
   std::string surfaceName(const Surface& s) const;

@@ -8,14 +8,16 @@
 
 namespace rsphere {
 
-// A place that receives light like a very small Lambertian surface: by the cosine, on the side of its normal.
+// A place that receives light like a very small Lambertian surface: in proportion to the cosine, on the side
+// of its normal.
 struct Sensor {
   V3d point{0, 0, 0};   // world
   V3d normal{0, 0, 1};  // unit
 };
 
 // Sensors from consecutive numbers x y z dx dy dz; the length of dx dy dz is ignored. Throws rad::Error if a
-// direction is 0 or a number is not finite; the message begins with `name` and the sensor's number from 1.
+// direction is 0 or a number is not finite; the message begins with `name` and the number of the sensor, from
+// 1.
 std::vector<Sensor> sensorsOf(std::span<const double> numbers, const std::string& name);
 
 // The names of the sensors as contributors: "sensor1" and so on.

@@ -12,7 +12,8 @@ namespace {
 // The rounding error of a coordinate difference, relative to the coordinates: two ulp.
 constexpr double kRounding = 4.5e-16;
 
-// The normal times twice the area, relative to the first vertex, so that it is accurate far from the origin.
+// The normal, scaled by twice the area. It is computed relative to the first vertex, so that it is accurate
+// far from the origin.
 V3d normalByTwiceTheArea(std::span<const V3d> vertices) {
   V3d sum(0, 0, 0);
   for (size_t i = 2; i < vertices.size(); ++i)
@@ -92,7 +93,8 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> all) {
 
 namespace {
 
-// Threshold of the cross product below which a point is on an edge. size: of the coordinates of the product.
+// Threshold of the cross product below which a point is treated as lying on an edge. size: of the coordinates
+// from which the product is computed.
 double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
 
 // inside() for a point that may lie on an edge or on its extension.
@@ -149,7 +151,8 @@ bool meetsInside(const Polygon& polygon, std::span<const V3d> vertices, const V3
                  const V3d& direction, double distance, double cosine) {
   if (!polygon.hasArea) return false;
   // Two polygons that share an edge compute hits of one ray that differ by this distance, because each rounds
-  // the distance along the ray separately. Points this near to the edge are inside both: no light leaks.
+  // the distance along the ray separately. Points this close to the edge are inside both, so that no light
+  // leaks between them.
   const double size = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z) + distance;
   const double tolerance = 2 * kRounding * size / std::abs(cosine);
   return inside(polygon, vertices, origin + distance * direction, tolerance);
@@ -159,7 +162,8 @@ bool intersect(const Sphere& sphere, const V3d& origin, const V3d& direction, do
                double nearest) {
   const V3d m = origin - sphere.center;
   const double b = m.dot(direction);
-  // Computed from the distance of line and centre, because b^2 - c is inaccurate for a small sphere far away.
+  // Computed from the distance between line and centre, because b^2 - c loses all accuracy for a small sphere
+  // far away.
   const V3d closest = m - b * direction;
   const double discriminant = sphere.radius * sphere.radius - closest.length2();
   if (!(discriminant >= 0)) return false;
@@ -248,7 +252,8 @@ Box3d bounds(const Polygon& polygon, std::span<const V3d> vertices) {
   Box3d box;
   for (const V3d& v : vertices.subspan(polygon.firstVertex, polygon.vertices)) box.extendBy(v);
   if (polygon.hasArea) {
-    // Hits lie on the mean plane, which extends beyond the box of vertices that are not coplanar.
+    // Hits lie on the mean plane. If the vertices are not coplanar, the plane extends beyond their box along
+    // the projection axis.
     const double out = thicknessOf(polygon, vertices) / std::abs(polygon.normal[polygon.axis]);
     box.min[polygon.axis] -= out;
     box.max[polygon.axis] += out;

@@ -76,7 +76,8 @@ struct Ring {
   double inner = 0, outer = 1;
 };
 
-// A cone of directions at infinity: "source". It is not in the tracer; rays that hit nothing else see it.
+// A cone of directions at infinity: "source". The tracer does not contain it; rays that hit nothing else see
+// it.
 struct Distant {
   V3d direction{0, 0, 1};  // unit, towards it
   double halfAngle = 0;    // radians, at most pi
@@ -104,11 +105,13 @@ struct MeshInstance {
   uint32_t mesh = 0;       // index in Scene::meshes
 };
 
-// The triangles of a mesh with one material of the mesh file. Rays hit them through instances of the mesh.
+// The triangles of a mesh with the same material from the mesh file. Rays hit them through instances of the
+// mesh.
 struct MeshFaces {};
 
 using Shape = std::variant<Polygon, Sphere, Cone, Ring, Distant, Instance, MeshInstance, MeshFaces>;
-// Code for one type of shape asserts this number: a new type stops it compiling until someone checks it.
+// Code that handles only one type of shape asserts this number: it stops compiling when a type is added,
+// until somebody has checked it.
 inline constexpr size_t kShapes = std::variant_size_v<Shape>;
 
 // Every shape is Distant, a PlainShape or a NestedShape. These two concepts list their types, so that

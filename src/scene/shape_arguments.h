@@ -1,5 +1,6 @@
 #pragma once
-// The arguments of surfaces. Each primitive has a reader that checks its arguments and makes the shape.
+// The arguments of surfaces. Each kind of primitive has a reader that checks the number and range of its
+// arguments and makes the shape.
 //
 // Each reader throws rad::Error with the file and line of the primitive for arguments that RADIANCE rejects.
 // Where RADIANCE warns and ignores the surface, it warns, too, and returns nothing.

@@ -68,6 +68,7 @@ class SurfaceList {
     const SurfaceList* list_;
     size_t at_;
   };
+  // The first surfaces.
   struct Beginning {
     const SurfaceList& list;
     size_t count;
@@ -105,7 +106,8 @@ class SurfaceList {
   const std::vector<Finish>& finishes() const { return finishes_; }
   std::vector<Finish>& finishes() { return finishes_; }
 
-  // Appends a surface. If its primitive follows the previous one's, the primitive needs no memory.
+  // Appends a surface. A surface whose primitive follows that of the previous one needs no memory for its
+  // primitive.
   void push_back(const Shape& shape, uint32_t finish, PrimitiveId primitive);
   void reserve(size_t more);
 

@@ -33,7 +33,8 @@ void orient(EllipticLobe& lobe, const V3d& along, double roughnessAlong, double 
   lobe.alongSquare = roughnessAlong * roughnessAlong;
   lobe.acrossSquare = roughnessAcross * roughnessAcross;
   if (lobe.tangents.given) return;
-  constexpr double kAlike = .001;  // difference below which roughnesses count as equal, as in RADIANCE
+  constexpr double kAlike = .001;  // difference below which roughnesses are treated as equal; RADIANCE's
+                                   // value
   lobe.disoriented = std::abs(roughnessAlong - roughnessAcross) > kAlike;
   lobe.alongSquare = lobe.acrossSquare = (lobe.alongSquare + lobe.acrossSquare) / 2;
 }

@@ -42,7 +42,8 @@ struct AnisotropicScattering {
   SharpPaths sharp;
   DiffuseComponent reflection, transmission;
   EllipticLobe reflected, transmitted;
-  bool widenReflection = false;  // whether the source's size widens the reflected lobe (plane surfaces)
+  bool widenReflection = false;  // whether the reflected lobe is widened by the size of the source (plane
+                                 // surfaces)
   // Whether WGMDfunc has mirror reflection, so that less light enters at grazing angles to polishedNormal.
   bool polished = false;
   V3d polishedNormal{0, 0, 1};

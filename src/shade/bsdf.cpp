@@ -222,7 +222,8 @@ class MatrixScattering final : public DirectedScattering {
     std::vector<float> sums_;
   };
 
-  // Incident directions of the data are those of light: undeflected light has the same azimuth on both sides.
+  // The incident direction of the data is that in which light travels: undeflected transmitted light has the
+  // same azimuth on both sides.
   std::optional<size_t> incidentCell(const V3d& d) const { return in_.cellOf(-d.x, -d.y, std::abs(d.z)); }
   std::optional<size_t> scatteredCell(const V3d& d) const { return out_.cellOf(d.x, d.y, std::abs(d.z)); }
 
@@ -294,7 +295,8 @@ Leaf find(const rad::TensorTree& tree, int rank, Coordinates p) {
 // Means of a tree over two of its dimensions, as functions of the others. Each branch of the tree gets a tree
 // over the other dimensions, with means as leaves. In total they have about a third as many nodes as the tree
 // has leaves, because each level needs a quarter of the nodes of the level below. Rejected alternative:
-// cumulative sums for each cell of view directions, made at first use, which need a lock and a memory limit.
+// cumulative sums for each cell of view directions, made at first use, because they need a lock and a limit
+// on memory.
 class Means {
  public:
   Means() = default;
@@ -355,7 +357,8 @@ class Means {
     return drawFirst_ ? drawn | given << 2 : given | drawn << given_;
   }
 
-  // Selects the second half with probability proportional to its mass. Rescales u to be uniform again.
+  // Selects the second half with probability proportional to its mass. Rescales u, which is then uniform
+  // again.
   static bool choose(double first, double second, double& u) {
     const double target = u * (first + second);
     const bool taken = target >= first && second > 0;
@@ -510,7 +513,8 @@ class TreeScattering final : public DirectedScattering {
     return most + 1;
   }
 
-  // Adds the values of the tree's cells, without the half that in isotropic data corresponds to no direction.
+  // Adds the values of the tree's cells. In isotropic data, half of the cells correspond to no direction and
+  // are skipped.
   void collect(Smallest& smallest, bool colored, uint32_t y, uint32_t u, uint32_t v, bool root) const {
     const uint32_t children = trees_.y.nodes[y].children;
     if (children == 0) {
@@ -544,7 +548,8 @@ class TreeScattering final : public DirectedScattering {
     if (!(r > 0)) return {1, 0};
     return {-view.x / r, -view.y / r};
   }
-  // The coordinate for the polar angle: the lower half of the dimension, from grazing (0) to normal (.5).
+  // The coordinate for the polar angle: the lower half of the dimension covers all angles, from grazing (0)
+  // to normal (.5).
   static double slant(const V3d& d) {
     return std::clamp(.5 - .5 * std::sqrt(d.x * d.x + d.y * d.y), 0., .5 - 0x1p-54);
   }
@@ -639,7 +644,8 @@ BsdfData::Through BsdfData::through(const V3d& view) const {
   if (!part) return {};
 
   // Probes cells around the undeflected direction, at points of a 9 by 9 grid: on its axes and diagonals
-  // except the corners, .6 cells apart. The criteria for a peak and its surroundings are RADIANCE's.
+  // except the corners, at a spacing of .6 cells. The criteria for a peak and its surroundings are
+  // RADIANCE's.
   struct Probe {
     double luminance;
     DirectedScattering::Cell cell;

@@ -58,7 +58,8 @@ V3d BsdfScattering::jittered(const V3d& view, double projectedSolidAngle, Random
   return v.normalized();
 }
 
-// A directed part with an albedo of at most -st is not sampled but added to the indirect light.
+// If the albedo of the directed part is at most the specular threshold (-st), it is not sampled but added to
+// the indirect light.
 std::optional<Lobe> BsdfScattering::lobe(Component component, Random& random) {
   const bool transmits = component == Component::transmitted;
   const DirectedScattering* directed = part(component);
@@ -119,7 +120,8 @@ Color BsdfScattering::directed(const V3d& toSource, double solidAngle, Random& r
   }
   const double size = part->cell(view_, other).projectedSolidAngle;
   const int draws = size > 0 ? views_ : 1;
-  // Cells below this fraction of the view's cell belong to a peak, not to be spread over a neighbouring cell.
+  // Cells smaller than this fraction of the view's cell belong to a peak, whose light must not be spread over
+  // a neighbouring cell.
   constexpr double kMuchFiner = .12;
   Color sum(0, 0, 0);
   int counted = 0;

@@ -26,7 +26,8 @@ std::optional<BsdfFrame> bsdfFrame(const Interaction& at, const V3d& up);
 class BsdfScattering {
  public:
   // Keeps a reference to the data. thickness (world units): of the hidden geometry behind the front;
-  // transmitted light starts behind it. views: number of views in a cell to average for direct light.
+  // transmitted light starts behind it. views: number of views within a cell over which the scattering of
+  // direct light is averaged.
   BsdfScattering(const BsdfMaterial& material, const BsdfData& data, const Interaction& at,
                  const BsdfFrame& frame, double thickness, int views, const MaterialOptions& options);
 

@@ -20,7 +20,8 @@ struct FunctionScattering {
   SharpPaths sharp;
   Color diffuseReflection{0, 0, 0}, diffuseTransmission{0, 0, 0};
   Color ambientReflection{0, 0, 0}, ambientTransmission{0, 0, 0};
-  // Factors on the functions' values for sources in front and behind. If black, these are not evaluated.
+  // Factors on the functions' values for sources in front of the surface and behind it. If black, the
+  // functions are not evaluated.
   Color directionalReflection{0, 0, 0}, directionalTransmission{0, 0, 0};
 };
 

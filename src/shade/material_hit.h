@@ -1,5 +1,6 @@
 #pragma once
-// The hit of a ray, as seen by materials. Values that most hits do not need are computed on request.
+// The hit of a ray, as seen by materials. Values that most hits do not need are computed only when a material
+// requests them.
 #include "scene/scene.h"
 #include "shade/scattering.h"
 #include "shade/surface_functions.h"
@@ -17,6 +18,7 @@ struct MaterialOptions {
   Medium medium{};                 // of the space outside mist and dielectrics (-me -ma -mg)
 };
 
+// How a ray arrived at a surface.
 struct Arrival {
   unsigned kinds = kPrimary;  // of the ray and its ancestors
   double cosine = 1;          // -normal . direction; negative from behind
@@ -74,6 +76,7 @@ class MaterialHit {
   // those applied by modify(). Does not change the hit itself.
   virtual Interaction interactionAfter(ModifierId modifiers) const = 0;
   virtual FunctionPoint point() const = 0;
+  // The medium that the ray travels through.
   virtual const Medium& medium() const = 0;
   // The direction (unit) to the light source at whose image the ray is aimed. REQUIRES Arrival::atImage.
   virtual V3d towardsSource() const = 0;

@@ -68,7 +68,8 @@ V3d orientation(ModifierId material, MaterialHit& hit, const FunctionPoint& poin
   return hit.functions().orientation(material, point, hit.scratch());
 }
 
-// The interaction of a component of WGMDfunc. named: empty for the material's modifiers (`inherited`).
+// The interaction of one component of WGMDfunc. named: empty if the component has the material's modifiers,
+// whose interaction is `inherited`.
 Interaction componentAt(const MaterialHit& hit, const std::optional<ModifierId>& named,
                         const Interaction& inherited) {
   return named ? hit.interactionAfter(*named) : inherited;
@@ -167,7 +168,8 @@ std::variant<Absorbs, Passes, BsdfScattering> response(const BsdfMaterial& mater
   const ModifierId f = material.functions;
   double thickness = material.proxy ? functions.thickness(f, hit.point(), hit.scratch()) : 0;
   if (std::abs(thickness) <= kNegligible) thickness = 0;
-  // Direct views, shadow rays, and rays from the side of the hidden geometry trace it instead of its proxy.
+  // Direct views, shadow rays, and all rays from the side of the hidden geometry trace this geometry itself
+  // instead of its proxy.
   if (thickness != 0 &&
       (a.isShadow() || !(a.kinds & (kSpecular | kAmbient)) || (thickness > 0) != hit.interaction().front))
     return Passes{};

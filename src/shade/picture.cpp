@@ -191,7 +191,8 @@ PictureSize sizeOf(size_t columns, size_t rows, double aspect) {
   return {std::max(1., width / height), std::max(1., height / width)};
 }
 
-// The pixel at a row and column of the file. Pixels are numbered row by row from the lower left.
+// The pixel of the picture at a row and column of the file. Pixels are numbered row by row from the lower
+// left.
 size_t placeOf(const Layout& layout, size_t row, size_t column) {
   const size_t slow = layout.rowsFall ? layout.rows - 1 - row : row;
   const size_t fast = layout.columnsFall ? layout.columns - 1 - column : column;
@@ -204,7 +205,8 @@ class PixelReader {
   explicit PixelReader(Bytes& bytes) : bytes_(bytes) {}
 
   // Reads the next row: channel by channel in the new run-length code, or pixel by pixel in the old one.
-  // Programs write the new code for rows of 8 to 32767 pixels; as in rtrace, it is accepted at any length.
+  // Programs write the new code for rows of 8 to 32767 pixels; as in rtrace, its mark is accepted at any
+  // length.
   void read(std::vector<Rgbe>& row) {
     const std::string_view mark = bytes_.ahead(4);
     if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
@@ -366,7 +368,8 @@ SpectralPicture SpectralPicture::read(const std::string& path) {
   const auto [first, last] = header.wavelengths;
   if (std::ranges::any_of(header.formats, [](auto& f) { return f != kSpectra; }))
     bad(path, fmt::format("expected spectra (FORMAT={})", kSpectra));
-  constexpr int kLeastComponents = 4;  // three are red, green and blue, which colorpict reads
+  constexpr int kLeastComponents = 4;  // three components are red, green and blue, which are read by
+                                       // colorpict
   if (header.components < kLeastComponents) bad(path, "expected at least 4 components (NCOMP=)");
   const auto isWavelength = [](double nm) { return nm >= 1 && nm <= 1e6; };
   if (!(isWavelength(first) && isWavelength(last) && first != last))

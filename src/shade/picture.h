@@ -52,7 +52,8 @@ class SpectralPicture {
 
   size_t width() const { return width_; }
   size_t height() const { return height_; }
-  // Number of bins of each spectrum, and the wavelengths (nm) at which the first begins and the last ends.
+  // Number of bins of each spectrum, and the wavelengths (nm) of the beginning of the first and the end of
+  // the last bin.
   size_t components() const { return components_; }
   double first() const { return first_; }
   double last() const { return last_; }

@@ -53,13 +53,15 @@ double between(double first, double last, size_t i, size_t count) {
   return first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
-// A spectrum from at least two values at the middles of its bins, which run from first to last.
+// A spectrum from values at the middles of its bins, which run from first to last. REQUIRES at least two
+// values.
 Spectrum betweenMiddles(std::span<const double> values, double first, double last) {
   const double half = (last - first) / static_cast<double>(values.size() - 1) / 2;
   return {values, first - half, last + half};
 }
 
-// The color of a spectrum in descending order of wavelength. As in RADIANCE 6.1, three are red, green, blue.
+// The color of a spectrum in descending order of wavelength. As in RADIANCE 6.1, three values are red, green
+// and blue.
 Color threeChannels(const Spectrum& spectrum) {
   const auto& v = spectrum.values;
   if (v.size() == 3) return Color(v[0], v[1], v[2]);
@@ -677,7 +679,8 @@ Color SurfaceFunctions::colorOf(const Spectrum& spectrum) const {
       spectrumOf(bandsOf(spectrum, spectralSampling(resampled, limits_.shortest, limits_.longest))));
 }
 
-// RADIANCE samples data of uneven wavelengths at even steps, which misses lines. Here, band means are exact.
+// RADIANCE samples data of unevenly spaced wavelengths at even steps, which misses spectral lines. Here the
+// means over bands are exact.
 Color SurfaceFunctions::colorOf(const SpectralCurve& curve) const {
   if (sampling_) return Color(bandsOf(curve, *sampling_));
   return threeChannels(
@@ -714,7 +717,8 @@ V3d SurfaceFunctions::orientation(ModifierId modifier, const FunctionPoint& at,
   const auto v = three(modifier, &Scatterer::orientation, at, scratch);
   const Function& f = ready(modifier);
   const V3d own(v[0], v[1], v[2]);
-  // As in rtrace, an instance transforms the point and the normal of functions, but not their direction.
+  // As in rtrace, an instance transforms the point and the normal that functions use, but not the direction
+  // that they return.
   return f.moved ? f.placement.toOuter.vector(own) : own;
 }
 

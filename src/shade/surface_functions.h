@@ -1,5 +1,6 @@
 #pragma once
-// Evaluates patterns, textures, mixtures and materials at a point: function files, data, pictures and text.
+// Evaluates patterns, textures, mixtures and the functions of materials at a surface point: function files,
+// data, pictures and text.
 //
 // A modifier's files are read and compiled at its first evaluation, and shared by all threads without a lock.
 // Threads may evaluate at the same time, each with a separate FunctionScratch.
@@ -40,7 +41,8 @@ struct FunctionPoint {
   V3d perturbedNormal{0, 0, 1};  // unit, on the ray's side
   double perturbedCosine = 1;    // -perturbedNormal . direction
   Color color{1, 1, 1};          // of the material with its pattern; for BRTDfunc, of the pattern
-  V3d toTarget{0, 0, 0};         // for redirection(): to the light source that is aimed at (unit), or 0
+  V3d toTarget{0, 0, 0};         // for redirection(): to the light source at which the ray is aimed (unit),
+                                 // or 0
 };
 
 // Working memory for evaluations by one thread.
@@ -56,7 +58,8 @@ class SurfaceFunctions {
   // Keeps a reference to the scene. sampling: the bands of a spectral run. Null in a run of three channels,
   // whose spectra are computed within `limits`. warn: called once for each modifier with a value that cannot
   // be computed (division by zero and the like), from any thread, but never by two at once. definitions:
-  // visible to all function files, instead of rayinit.cal. Throws rad::Error if one is missing or invalid.
+  // visible to all function files, instead of those of rayinit.cal. Throws rad::Error if a definition is
+  // missing or invalid.
   SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn = {},
                    std::span<const SharedDefinitions> definitions = {}, const WavelengthLimits& limits = {});
 
@@ -76,7 +79,8 @@ class SurfaceFunctions {
   bool dependsOnDistance(ModifierId pattern) const;
   // The perturbation that is added to the surface's normal, in the world. Neutral value: (0, 0, 0).
   V3d texture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // The share of the foreground, 0 to 1. Negative if it cannot be computed: the mixture is ignored.
+  // The share of the foreground, 0 to 1. Negative if it cannot be computed, which means that the mixture is
+  // ignored.
   double mixture(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
 
   // The functions of materials; the neutral value is 0.
@@ -86,7 +90,8 @@ class SurfaceFunctions {
   V3d orientation(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the up direction in the world, of any length.
   V3d up(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
-  // BSDF: the thickness of the hidden geometry (world units); positive if it lies behind the front.
+  // BSDF: the thickness of the hidden geometry, in world units; positive if it lies behind the surface's
+  // front.
   double thickness(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
   // BSDF, aBSDF: the file's data.
   const BsdfData& bsdf(ModifierId modifier) const;
@@ -101,7 +106,8 @@ class SurfaceFunctions {
   Color distribution(ModifierId modifier, const FunctionPoint& at, const V3d& toSource, double solidAngle,
                      FunctionScratch& scratch) const;
 
-  // prism1, prism2: for an image (0 or 1), the redirected ray's coefficient and direction (world, unit).
+  // prism1, prism2: for an image (0 or 1), the coefficient of the redirected ray and its direction (world,
+  // unit).
   struct Redirection {
     double coefficient = 0;
     V3d direction{0, 0, 0};
@@ -176,7 +182,8 @@ class SurfaceFunctions {
     std::array<ProgramPointer, 3> distribution;
     bool gray = true;
     std::shared_ptr<const rad::DataFile> table;
-    std::vector<ProgramPointer> coordinates;  // in the table, as functions of the same four arguments
+    std::vector<ProgramPointer> coordinates;  // coordinates in the table, as functions of the same four
+                                              // arguments
   };
 
   // A coefficient and a direction for each image.

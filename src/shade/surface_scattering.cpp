@@ -9,7 +9,8 @@ static_assert(ScattersLight<RoundScattering> && ScattersLight<EllipticScattering
 // Cap on the draws for a sample of ashik2 above the surface; as in RADIANCE.
 constexpr int kMostTries = 10;
 // -ss below 1 does not narrow the lobe of ashik2. The original draws one sample per ray, evenly distributed
-// over successive rays. Here samples are independent of other rays, and four have the same noise.
+// over successive rays. Here samples of a ray are independent of other rays, and four of them have the same
+// noise.
 constexpr int kAshikhminSamples = 4;
 
 // A sample of a lobe, stratified in the first random number. sample: a function like sampleReflection().

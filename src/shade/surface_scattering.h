@@ -1,11 +1,13 @@
 #pragma once
-// Scattering of light by a surface towards a ray's origin, in the terms that a path tracer estimates:
+// Scattering of light by a surface towards a ray's origin, divided into the terms that a path tracer
+// estimates:
 //
 //   sharp paths  +  lobes, by samples  +  on each side: indirect light  +  direct light
 //
 // Each model of scattering is a class with the members of the concept ScattersLight. They are values: they
 // trace nothing, and the caller passes their random numbers. Their terms must be estimated in the order
-// above, reflection before transmission, because a lobe too weak to be sampled may add to indirect light.
+// above, reflection before transmission, because a lobe that is too weak to be sampled may add its share to
+// the indirect light.
 #include <array>
 #include <concepts>
 #include <optional>
@@ -30,7 +32,8 @@ inline const V3d kNoFront{0, 0, 0};
 // A lobe that is estimated by samples.
 struct Lobe {
   int leastSamples = 1;  // for a ray of weight 1, regardless of -ss
-  // The lobe's share of the ray's radiance. Above 0, it limits the samples, so that each weighs at least -lw.
+  // The lobe's share of the ray's radiance. If it is above 0, it limits the number of samples, so that each
+  // has a weight of at least -lw.
   double share = 0;
   V3d offset = kNoOffset;  // from the hit to the origin of the samples (world units)
 };

@@ -191,7 +191,8 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   return images;
 }
 
-// Sets solidAngle, filled and region of an image seen from an eye. window: silhouette of its mirror, or null.
+// Sets solidAngle, filled and region of an image as seen from an eye. window: silhouette of its mirror; null:
+// seen directly.
 void SeenSources::setExtent(Image& image, const V3d& eye, const Silhouette* window) const {
   if (isSensor(prepared_, image.source)) {
     V3d direction;
@@ -253,7 +254,8 @@ std::vector<SeenSources::Sample> SeenSources::sample(const PathsFrom& paths, con
                                                      uint64_t seed) const {
   std::vector<Sample> samples;
   Random random(seed);
-  // Images with less than one ray are sampled with that probability, and represent the others.
+  // Images with less than one ray are sampled with that probability, with a weight that represents the
+  // others.
   double due = random.uniform();
   for (size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -301,7 +303,8 @@ std::vector<SeenSources::Sample> SeenSources::sampleImage(const PathsFrom& paths
   return samples;
 }
 
-// The fraction of an image's region that shows the unobstructed source. eye: the point, or its mirror image.
+// The fraction of an image's region that shows the source if nothing is in front of it. eye: the point, or
+// its mirror image.
 double SeenSources::filledShare(const Image& image, const V3d& eye, Random& random) const {
   const ShapeRef shape = shapeOf(prepared_, image);
   const double shift1 = random.uniform(), shift2 = random.uniform();

@@ -15,7 +15,8 @@ namespace rsphere {
 class SeenSources {
  public:
   // Chooses the sources that are integrated separately, and the flat surfaces that may mirror them. All
-  // sources are chosen except illums, which a viewer does not see as sources. Keeps a reference to the scene.
+  // sources are chosen except illums, because a viewer does not see illums as sources. Keeps a reference to
+  // the prepared scene.
   explicit SeenSources(const PreparedScene& prepared);
 
   // An image of a source as seen from a point.
@@ -67,7 +68,8 @@ class SeenSources {
   // is one in each cell of a grid of equal solid angles. For an image that is seen directly, shadow rays
   // (tuning::SeenSources::kShadowsAlong) measure the visible fraction of the cell, and one of the
   // unobstructed ones is traced. If nothing hides an image, the solid angles of its directions sum to its
-  // solid angle: exactly for polygons, spheres and distant sources, within 0.1% for others. No bias.
+  // solid angle: exactly for polygons, spheres and distant sources, within 0.1% for others. The estimate is
+  // unbiased.
   std::vector<Sample> sample(const PathsFrom& paths, const std::vector<Image>& images, uint64_t seed) const;
 
  private:

@@ -14,7 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Rounding error of unit vectors and their products, a few ulp of 1. Directions on an edge are inside.
+// Rounding error of unit vectors and their products, a few ulp of 1. Directions on the edge of a region are
+// inside.
 constexpr double kRounding = 1e-15;
 
 // Smallest versine (1 - cos) of the half angle of a convex polygon, 4.5e-7 rad. A narrower polygon is
@@ -258,7 +259,8 @@ Silhouette silhouetteOf(ShapeRef shape, std::span<const V3d> vertices, const V3d
     if (thicknessOf(polygon, vertices) <= kSamePlace * std::min<double>(1, polygon.extent)) {
       s.setPolygon(polygon, around, point);
     } else {
-      // Rays hit the polygon in its mean plane, into which the vertices are moved, along the polygon's axis.
+      // Rays hit the polygon in its mean plane. The vertices are moved into that plane, along the polygon's
+      // axis.
       std::vector<V3d> flat(around.begin(), around.end());
       for (V3d& v : flat)
         v[polygon.axis] += (polygon.offset - polygon.normal.dot(v)) / polygon.normal[polygon.axis];

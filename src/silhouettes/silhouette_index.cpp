@@ -18,7 +18,8 @@ V3d onFace(int face, double u, double v) {
   return d.normalized();
 }
 
-// A cell, enclosed in a cap around its middle. radius: the cap's half angle (radians), with cosine and sine.
+// A cell, enclosed in a cap around its middle. radius: half angle of the cap, radians, with its cosine and
+// sine.
 struct Cell {
   V3d middle;
   double radius, cosine, sine;

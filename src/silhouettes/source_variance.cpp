@@ -9,7 +9,8 @@ namespace rsphere {
 
 Variance partsVariance(std::span<const SeenSources::Sample> samples, const SpectralSampling* sampling,
                        KernelVariances* to) {
-  // Samples are in rows of the grid. A pair is two neighbours in a row, or in rows as long as the first.
+  // The samples are ordered by rows of the grid. A pair is two neighbours in a row, or in adjacent rows if
+  // these are as long as the first row.
   Variance sum, edges;
   size_t pairs = 0;
   for (const auto& s : samples) {

@@ -70,7 +70,8 @@ struct Shown {
 };
 Shown mostIrregular(const Scene& scene, ModifierId modifier);
 
-// The visible material of an illum: its alternate; without one, it shows what is behind it, like a pane.
+// The visible material of an illum: its alternate material; if there is none, the illum shows what is behind
+// it, like a pane.
 Shown seenOf(const Scene& scene, const Modifier& illum, const Alternate& alternate) {
   if (alternate.kind == Alternate::Kind::modifier) return mostIrregular(scene, alternate.modifier);
   return {&illum, tuning::SpecialObjects::kPane};

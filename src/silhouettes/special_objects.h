@@ -11,7 +11,8 @@
 
 namespace rsphere {
 
-// The irregularity of a material, 0 to 1: how much its scattered light varies with direction (tuning.h).
+// The irregularity of a material, 0 to 1: how much the light that it scatters varies with direction. For the
+// constants, see tuning.h.
 // - 1 if it shows a sharp image of its surroundings in another shape or place: mirror, dielectric, interface,
 //   prisms; aBSDF, whose data are meant to have a peak straight through.
 // - kPane for glass, and for an illum that shows what is behind it. Other illums have the irregularity of
@@ -55,7 +56,8 @@ Silhouette silhouetteOf(const Scene& scene, const SpecialObject& object, const V
 // A point on the object, or on the ball around it (world).
 SurfacePoint samplePoint(const Scene& scene, const SpecialObject& object, Random& random);
 
-// The text of -Sl, a line for each object: place, surface, type and name of its material, density, reason.
+// The text of -Sl, one line for each object: place, surface, type and name of its material, density, and
+// reason.
 std::string specialObjectsText(const Scene& scene, const std::vector<SpecialObject>& objects);
 
 }  // namespace rsphere

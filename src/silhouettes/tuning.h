@@ -16,10 +16,12 @@ struct SeenSources {
   RSPHERE_DERIVED(SeenSources, double, kSmallShare, .1);
   // The number of rays to an image is proportional to its light raised to this power: derived. Of the n parts
   // of a half-hidden image, only those on the shadow's edge are uncertain, so that the error for light L is
-  // proportional to L n^-3/4. The sum of L^2 n^-3/2, for a given sum of n, is smallest for n ~ L^(4/5).
+  // proportional to L n^-3/4. The sum of L^2 n^-3/2 over all images, for a given sum of n, is smallest for n
+  // proportional to L^(4/5).
   static constexpr double kByLight = 4. / 5;
-  // Number of directions that measure, without rays, how much of a region its source fills: derived. An edge
-  // divides about n^1/2 of n even cells. Their errors, of .3 each, add up to .3 n^-3/4 of the region: .2%.
+  // Number of directions that measure, without tracing rays, how much of a region its source fills: derived.
+  // An edge divides about n^1/2 of n even cells. Their errors, of .3 each, add up to .3 n^-3/4 of the region:
+  // .2%.
   static constexpr size_t kShareTries = 1024;
   // Shadow rays along each side of a direction's cell on a directly visible source: measured at points where
   // a partition hides part of the goal. With 2, the error is 3% instead of 1.8%, in an equal time. With 8, no
@@ -53,11 +55,13 @@ struct SpecialObjects {
   // Objects whose radiance varies less with direction than this are treated as diffuse: derived. At this
   // threshold they would get 16 directions per sr, a tenth of the density of the default base directions.
   static inline const double kSpecialIrregularity = 16 / kDirectionsPerSr;
-  // Up to this number of special objects, looking at each is faster than finding the hidden ones. Measured.
+  // Up to this number of special objects, looking at each of them takes less time than finding out which are
+  // hidden (HiddenBoxes). Measured.
   static constexpr size_t kFewHidden = 1024;
-  // If octrees and meshes contain more special objects, each outermost instance becomes one object, because
-  // the silhouettes of all objects are computed at every point. It is also the cap on pairs of a mirror and a
-  // light source, whose silhouettes are computed as well; the largest mirrors are kept. Insensitive.
+  // If octrees and meshes contain more special objects than this, each outermost instance becomes one
+  // object, because the silhouettes of all objects are computed at every point. It is also the cap on pairs
+  // of a mirror and a light source, whose silhouettes are computed as well; the largest mirrors are kept.
+  // Insensitive.
   static constexpr size_t kMostPlacedObjects = 4096;
 };
 

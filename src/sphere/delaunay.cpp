@@ -139,7 +139,8 @@ std::uint32_t Delaunay::locateFromNearest(const V3d& p, std::uint32_t site, std:
   }
   equal = site;
   if (sites[site].at == p) return kNone;
-  // The nearest site will be joined to p: a circle of its triangles contains p, unless p is inside the hull.
+  // The nearest site will be joined to p, so the circle of one of its triangles contains p, unless p is
+  // hidden inside the hull.
   std::uint32_t found = kNone;
   const std::uint64_t slow = counts.lifted + counts.exact + counts.symbolic;
   std::uint64_t asked = 0;

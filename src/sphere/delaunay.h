@@ -19,7 +19,8 @@ namespace rsphere {
 // Fills one cache line, so that each step of a walk or of a hole's growth loads only one line.
 struct alignas(64) Triangle {
   double nx = 0, ny = 0, nz = 0,
-         offset = 0;             // normal: outward, length twice the area; offset: normal . corner
+         offset = 0;             // normal: outward, with the length of twice the area; offset: normal .
+                                 // corner
   float bound = 0;               // the sign of beyond() is right if its absolute value exceeds this bound
   std::uint32_t corner[3] = {};  // sites, counterclockwise as seen from outside
   std::uint32_t next[3] = {};    // neighbour across the edge opposite each corner: 4 * triangle + edge
@@ -40,13 +41,15 @@ struct Delaunay {
   static constexpr std::uint32_t kNone = ~0u;
 
   std::vector<Site> sites;                  // in the order of insertion
-  std::vector<std::uint32_t> standsFor;     // the site that each was merged into, or itself
+  std::vector<std::uint32_t> standsFor;     // the site into which each was merged; itself if it was not
+                                            // merged
   std::vector<std::uint32_t> someTriangle;  // a triangle with the site as a corner
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> unused;  // free slots in triangles; their corner[0] is kNone
   std::uint32_t insertions = 0;
   PredicateCounts counts;
 
+  // Reserves memory for this number of sites in total.
   void reserve(std::size_t count);
 
   // Starts with four different sites.
@@ -89,7 +92,8 @@ struct Delaunay {
   };
 
   bool holdsSlowly(const Triangle& t, const V3d& p);
-  // Finds a triangle whose circumcircle contains p. If there is none (kNone), p merges with the site `equal`.
+  // Finds a triangle whose circumcircle contains p. Returns kNone if there is none, and sets `equal` to the
+  // site with which p is merged.
   std::uint32_t locate(const V3d& p, std::uint32_t& equal);
   std::uint32_t locateFromNearest(const V3d& p, std::uint32_t from, std::uint32_t& equal);
   // Enlarges the scratch memory of insert() if needed; returns whether it did. Each triangle of the hole adds

@@ -35,7 +35,8 @@ std::vector<V3d> baseDirections(std::size_t n);
 // "Uniform random rotations", Graphics Gems III, 1992.
 Imath::M33d randomRotation(std::uint64_t number);
 
-// The directions, rotated by randomRotation(rotation) and normalized again; unchanged if rotation is 0.
+// The directions, rotated by randomRotation(rotation) and normalized again. If rotation is 0 they are
+// unchanged.
 std::vector<V3d> rotatedDirections(std::span<const V3d> directions, std::uint64_t rotation);
 
 }  // namespace rsphere

@@ -107,7 +107,8 @@ int exactSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
       .sign();
 }
 
-// The sign of the first nonzero derivative of exactSide, as coordinates are perturbed; 0: equal points.
+// The sign of the first nonzero derivative of exactSide, in the order in which coordinates are perturbed. 0
+// only if two points are equal.
 int shiftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
   const std::array<const V3d*, 4> row = {&a, &b, &c, &p};
   std::array<int, 4> order;
@@ -155,7 +156,8 @@ int liftedSide(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
 
 bool circleHolds(const V3d& a, const V3d& b, const V3d& c, const V3d& p, PredicateCounts& counts) {
   int sign = liftedSide<double>(a, b, c, p);
-  // Extended precision decides most cases of rounded sites on a circle, in 40 ns; the exact form takes 2 us.
+  // Extended precision decides most cases of rounded sites on a common circle. It takes 40 ns, the exact form
+  // 2 us.
   if (sign == 0) sign = liftedSide<long double>(a, b, c, p);
   if (sign != 0) {
     ++counts.lifted;

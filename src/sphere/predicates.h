@@ -48,7 +48,8 @@ inline TwoParts product(double a, double b) {
 // The largest | |p|^2 - 1 | of an accepted direction. It determines the error of the radius.
 inline constexpr double kUnitTolerance = 1e-14;
 
-// Smaller components are set to zero, so that fifth powers of the others are exact.
+// Smaller components are set to zero, so that fifth powers of the others neither overflow nor underflow in
+// exact arithmetic.
 inline constexpr double kSmallestComponent = 0x1p-150;
 
 // |p|^2 - 1. For a normalized vector p the error is at most 1e-32, and 2^-51 of the value.

@@ -163,7 +163,8 @@ void VoronoiWorkspace::Data::query(const BaseTriangulation::Data& base,
 
 void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& base) {
   // Replaced triangles are recognized by their first corner: in new triangles it is a site that was added
-  // later, which no base triangle has. For these, 0 is added, because a branch would be mispredicted.
+  // later, which no base triangle has. For replaced triangles, 0 is added instead of branching, because the
+  // branch would be mispredicted.
   const auto& triangles = triangulation.delaunay.triangles;
   const std::size_t kept = base.triangulation.delaunay.sites.size(), places = base.kites.size();
   which.resize(triangles.size());
@@ -190,7 +191,8 @@ void VoronoiWorkspace::Data::finishAreas() {
   for (std::uint32_t site = 0; site < area.size(); ++site) {
     anyMerged = anyMerged || delaunay.standsFor[site] != site;
     if (spoiled[site]) area[site] = carefulSolidAngle(delaunay, site);
-    // In a cluster within an ulp, cells are as small as the hull's deviations from radius 1 (predicates.h).
+    // In a cluster within an ulp, the cells are as small as the deviations of the radii of the hull's points
+    // from 1 (predicates.h).
     if (area[site] < 0 && area[site] > -kLeastArea) area[site] = 0;
   }
   if (anyMerged) {
@@ -212,7 +214,8 @@ void VoronoiWorkspace::Data::setFlatAreas() {
   std::array<double, 3> cell = {kSphere, kSphere / 2, kSphere / 2};
   if (few.size() == 2) cell[0] = kSphere / 2;
   if (few.size() == 3) {
-    // Both sides of the triangle are faces of the hull: a cell is 2 pi minus its two angles (kites.h).
+    // Both sides of the plane triangle are faces of the hull, so that a cell is 2 pi minus its two angles
+    // (kites.h).
     for (int i = 0; i < 3; ++i) {
       const long double angle = hullAngle(sites[few[(i + 1) % 3]], sites[few[(i + 2) % 3]], sites[few[i]]);
       cell[i] = static_cast<double>(2 * (std::numbers::pi_v<long double> - angle));

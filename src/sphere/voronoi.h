@@ -13,7 +13,8 @@
 //
 // Properties of all functions here that take directions:
 // 1. Directions are unit vectors, with |p|^2 within kUnitTolerance (1e-14) of 1. For any other, NaN or
-//    infinite direction, std::invalid_argument names its index. Components below 2^-150 are set to 0.
+//    infinite direction, std::invalid_argument names its index in the list. Components below 2^-150 are set
+//    to 0.
 // 2. Only the direction of the stored triple matters; rounding of its length does not.
 // 3. A cell's relative error is at most 1e-13, or the effect of changing the input by half an ulp, whichever
 //    is larger. The sum is 4 pi within 1e-13 for up to 4096 directions, and within 1e-12 for up to a million.
@@ -47,7 +48,8 @@ class BaseTriangulation {
   std::unique_ptr<const Data> data_;
 };
 
-// A thread's memory for queries, with the last triangulation. Queries only allocate what they need more.
+// One thread's memory for queries, with the triangulation of the last query. A query allocates memory only if
+// it needs more than all earlier ones.
 class VoronoiWorkspace {
  public:
   VoronoiWorkspace();

@@ -68,7 +68,8 @@ BallHighlights::Ball BallHighlights::lit(const Sphere& sphere, const Opaque& mat
   return ball;
 }
 
-// Each ball is treated as a small source. For near points, its images lie half a radius below the surface.
+// Each ball is treated as a small source. For points nearby, its images lie at its focus, half a radius below
+// the surface.
 void BallHighlights::aim(const V3d& point, const V3d& front, double least, Aim& aim) const {
   aim.clear();
   for (const uint32_t number : near_.at(point)) {
@@ -100,7 +101,8 @@ bool BallHighlights::meets(const Ball& ball, const V3d& point, const V3d& direct
   return true;
 }
 
-// Whether a source's highlight is not negligible where a ray meets a ball. Avoids most evaluations of lobes.
+// Whether a ray meets a ball at a point where a source's highlight is not negligible. This test avoids most
+// evaluations of lobes.
 bool BallHighlights::isNear(const Ball& ball, const SourcePart& part, const V3d& direction,
                             const V3d& normal) {
   const V3d way = part.towards(ball.sphere.center + ball.sphere.radius * normal);

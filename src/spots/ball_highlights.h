@@ -4,9 +4,11 @@
 // gathers hit highlights only by chance, these cause much of the variance of indirect light beside a ball.
 // Some rays are therefore aimed at them, with multiple importance sampling (balance heuristic: Veach and
 // Guibas 1995). The place of a highlight follows from the law of reflection; its extent follows from the
-// curvature, the roughness and the source. Missed or misplaced highlights change the variance, not the mean.
+// curvature, the roughness and the source. Highlights that are missed or misplaced change the variance, not
+// the mean.
 //
-// Smooth balls are ignored: as in rtrace, indirect rays do not see light sources in smooth surfaces.
+// Smooth balls are ignored: as in rtrace, light sources mirrored by smooth surfaces are not visible to
+// indirect rays.
 #include "openings/proposals.h"
 #include "openings/tuning.h"
 #include "spots/brightest_sources.h"
@@ -25,7 +27,8 @@ class BallHighlights {
   bool empty() const { return balls_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimed;
 
-  // The sampling distribution for a point of a diffuse surface, with an element for each ball.
+  // The sampling distribution for a point of a diffuse surface. Each element represents the highlights of one
+  // ball.
   struct Aim : Proposals<kRoom> {
     std::array<V3d, kRoom> way;  // vectors to the centers of the balls (world units)
     // Upper bound on the squared distance to the point where a tangent touches the ball (square world units).

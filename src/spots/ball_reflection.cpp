@@ -17,7 +17,8 @@ V3d mirroringNormal(const Sphere& ball, const V3d& point, const V3d& to, bool di
   const V3d b = distant ? to : (to - ball.center).normalized(), across = b - a.dot(b) * a;
   if (!(across.length2() > 1e-20)) return a;
   const V3d side = across.normalized();
-  // An angle from a, by its cosine and sine, so that differences need no trigonometric functions.
+  // An angle from a, given by its cosine and sine so that differences of angles need no trigonometric
+  // functions.
   struct Turn {
     double cosine, sine;
   };

@@ -13,7 +13,8 @@
 namespace rsphere {
 namespace {
 
-// Lower bound on the squared sine of a spot's angular radius: smaller ones are points in single precision.
+// Lower bound on the squared sine of a spot's angular radius. In single precision, smaller spots cannot be
+// distinguished from points.
 constexpr float kNarrowest = 1e-6f;
 
 V3d onDisk(const V3d& normal, double radius, double angle) {
@@ -61,7 +62,8 @@ struct BrightSpots::Node {
       found.places[i] = particles[(2 * i + 1) * particles.size() / (2 * found.places.size())].point;
     return found;
   }
-  // The light that the spot reflects times its brightness. Aiming at it reduces the variance accordingly.
+  // The product of the light that the spot reflects and its brightness. Aiming at spots of higher worth
+  // reduces the variance more.
   double worth() const { return spot.power * spot.power / area; }
   std::pair<Node, Node> halves() const {
     const auto axis = static_cast<int>(box.majorAxis());
@@ -243,7 +245,8 @@ void BrightSpots::keep(const Spot& spot) {
   spots_.power[i] = static_cast<float>(spot.power);
 }
 
-// A spot is treated as a small flat surface with its normal. Spots around or near the point are ignored.
+// A spot is treated as a small flat surface with the spot's normal. Spots that contain the point or are near
+// it are ignored.
 RSPHERE_FOR_WIDTHS("avx2") void BrightSpots::aim(const AimFrom& from, Aim& aim) const {
   const auto& [point, front, rays, all] = from;
   const Imath::V3f at(point - spots_.origin), ahead(front);

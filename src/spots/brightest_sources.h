@@ -1,5 +1,6 @@
 #pragma once
-// Finds the light sources that light a place most without examining all: lamps of other storeys are far away.
+// Finds the light sources that light a place most without examining all sources: in a tall building, the
+// lamps of other storeys are far away.
 #include <vector>
 
 #include "scene/box_tree.h"

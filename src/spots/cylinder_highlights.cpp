@@ -121,7 +121,8 @@ void CylinderHighlights::aim(const V3d& point, const V3d& front, double least, A
       const double near = (at - radius * normal).length(), far = (side - radius * normal).length();
       const double place = height + near * (part.distant ? to.dot(shape.axis) / beside
                                                          : (to.dot(shape.axis) - height) / (near + far));
-      // If the middle of the highlight is within one length beyond an end, its edge may be on the cylinder.
+      // If the middle of the highlight lies within one length beyond an end, its edge may still lie on the
+      // cylinder.
       if (place < -shape.length || place > 2 * shape.length) continue;
       const V3d mirror = shape.base + place * shape.axis + radius * normal;
       const V3d out = (mirror - point).normalized();

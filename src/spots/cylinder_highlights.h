@@ -22,7 +22,8 @@ class CylinderHighlights {
   bool empty() const { return cylinders_.empty(); }
   static constexpr size_t kRoom = tuning::Caps::kAimed / 2;
 
-  // The sampling distribution for a point of a diffuse surface: highlights of parts of sources on cylinders.
+  // The sampling distribution for a point of a diffuse surface. Each element represents the highlight of one
+  // part of a source on one cylinder.
   struct Aim : Proposals<kRoom> {
     std::array<HighlightLobe, kRoom> lobe;
   };

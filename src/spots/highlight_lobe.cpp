@@ -33,7 +33,8 @@ Highlight::Highlight(const V3d& at, const V3d& normal, const Bend& bend, double 
   V3d across = normal.cross(in);
   across = across.length2() > 1e-12 ? across.normalized() : frame(normal).first;
   const V3d along = across.cross(normal);
-  // Twice the covariance of the difference of normal and bisector, over roughness and points of the source.
+  // Twice the covariance of the difference between the normal and the bisector, over the roughness and over
+  // all points of the source.
   Symmetric apart{roughness * roughness, 0, roughness * roughness};
   for (const V3d& half : {part.u, part.v}) {
     const V3d angle = (half - half.dot(out) * out) / (part.distant ? 1 : toSource);

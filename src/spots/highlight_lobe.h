@@ -58,19 +58,22 @@ struct Bend {
 // Source: Ward, "Measuring and modeling anisotropic reflection" (SIGGRAPH 1992), which defines the roughness.
 struct Highlight {
   HighlightLobe lobe;  // wider than the highlight by the factor tuning::Highlights::kWider
-  // The solid angle of the part's image on a smooth surface, divided by that of the part as seen from `at`.
+  // The solid angle of the part's image on a smooth surface, divided by the solid angle of the part as seen
+  // from `at`.
   double magnified;
   // The variance of the highlight along the direction in which the surface is straight (square world units).
   double lengthwise;
   // The square root of the determinant of the covariance of the directions (sr).
   double spread;
 
-  // at: the place that mirrors the middle of the part towards the point (world). normal: there (unit).
+  // at: the place on the surface that mirrors the middle of the part towards the point (world). normal: the
+  // normal of the surface there (unit).
   Highlight(const V3d& at, const V3d& normal, const Bend& bend, double roughness, const SourcePart& part,
             const V3d& point);
 };
 
-// The material of a surface that shows highlights: plastic or metal with roughness above 0. Or null.
+// The material of a surface that shows highlights: plastic or metal with a roughness above 0. Null for
+// others.
 const Opaque* roughReflector(const Scene& scene, const Surface& surface);
 
 // The fraction of the light, by brightness, that plastic or metal reflects in highlights.

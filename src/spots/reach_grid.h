@@ -22,7 +22,8 @@ class ReachGrid {
   ReachGrid(const std::vector<Reach>& reaches, const Box3d& bounds);
   ReachGrid() = default;  // without objects
 
-  // The indices of all objects whose reach contains the point, ascending; may include some nearby ones.
+  // The indices of all objects whose reach contains the point, in ascending order; may include some nearby
+  // ones.
   std::span<const uint32_t> at(const V3d& point) const {
     if (begin_.empty()) return {};
     const V3d cell = (point - low_) * perLength_;

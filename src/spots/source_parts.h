@@ -1,5 +1,6 @@
 #pragma once
-// Divides light sources into parts so small that each highlight on a curved surface is nearly straight.
+// Divides light sources into parts so small that the highlight of each part on a curved surface is nearly
+// straight.
 #include <vector>
 
 #include "light/sources.h"

@@ -22,7 +22,8 @@ struct BrightSpots {
   // leaves one third, two thirds and nearly all of the noise. Insensitive. For light that enters through
   // openings, no minimum is required.
   RSPHERE_DERIVED(BrightSpots, double, kBrighter, 5);
-  // Transmittance assumed for every pane: clear single glazing. Only the relative power of spots matters.
+  // Transmittance assumed for every pane: that of clear single glazing. It need not be exact, because only
+  // the relative power of spots matters.
   static constexpr double kTransmittance = .9;
   // The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
   static constexpr size_t kFewest = 12;
@@ -45,7 +46,8 @@ struct BrightSpots {
 
 // Highlights of light sources on rough balls and cylinders, at which indirect rays are aimed (highlights.h,
 // source_parts.cpp, highlight_lobe.cpp, ball_highlights.cpp, cylinder_highlights.cpp). Values without a
-// stated origin are estimates that have not been varied. All affect variance and time, not the mean.
+// stated origin are estimates that have not been varied. All affect the variance and the computing time, not
+// the mean.
 struct Highlights {
   // Rays are aimed at a highlight if otherwise, hit only by chance, it would add more than this multiple of
   // the squared mean radiance to the variance of a direction. Measured in an open-plan office with 50 rough
@@ -58,7 +60,8 @@ struct Highlights {
   // kLeast, a search takes as long as two rays, at most an eighth of the gather.
   RSPHERE_DERIVED(Highlights, int, kMany, 16);
   // Factor on kLeast for balls, in gathers with fewer rays than kMany, whose noise is larger. kLeast divided
-  // by this is also the threshold for each highlight on cylinders, because many add up. Insensitive.
+  // by this is also the threshold for each single highlight on cylinders, because many cylinders add up.
+  // Insensitive.
   RSPHERE_DERIVED(Highlights, double, kLeastOfFew, 10);
   // Largest half-width of a part of a source, relative to its distance from the surface. The highlight of a
   // wider part would be noticeably curved. Also used for the parts of sources whose images in mirroring balls
@@ -66,7 +69,8 @@ struct Highlights {
   static constexpr double kHalf = .25;
   // Ratio of the width of the distribution of aimed directions to the width of the highlight. Also the ratio
   // of the region that surrounds the image of a source in a mirroring ball (targets/glints.h) to the image.
-  // Without this margin, few directions would hit the edge, and a part would be lost. Insensitive.
+  // Without this margin, few directions would hit the edge, and a part of the image would be lost.
+  // Insensitive.
   static constexpr double kWider = 1.2;
   // Lower bound on cosines, for surfaces seen edge-on. Used for reflections, whose highlight would otherwise
   // have no extent; for bright spots, whose normal is a mean; and for the sine of the angle between a

@@ -164,7 +164,8 @@ double Contrasts::deviationOn(size_t object, const Region& region) const {
   return alike.deviation;
 }
 
-// The light vertices in the middle of the region's objects, or those of all places if it sees all objects.
+// The light vertices of the place in the middle of the region's objects; the vertices common to all places if
+// the region sees all objects.
 std::shared_ptr<const VertexLight> Contrasts::lightFor(const Region& region) const {
   if (!tracing_.pools) return nullptr;
   if (region.objects.size() == objects_.size()) return tracing_.pools->ofAll();

@@ -37,7 +37,8 @@ class Contrasts {
   // The standard deviation of the brightness on an object (W/sr/m2). object: its position in objects().
   double deviationOn(size_t object, const Region& region) const;
 
-  // Relative standard deviation of brightness along a path: the error of a base direction. 1 if not measured.
+  // Relative standard deviation of the brightness along one path: the error of a single base direction. 1 if
+  // it was not measured.
   double baseError() const { return baseError_; }
 
  private:

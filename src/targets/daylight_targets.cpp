@@ -134,7 +134,8 @@ std::vector<FoundRegion> CurvedImages::find(const V3d& point, double usual) cons
   for (const Mirror& mirror : mirrors_) {
     const double distance = (point - mirror.nearestOnAxis(point)).length() - mirror.radius;
     if (!(distance > 1e-4 * mirror.radius)) continue;
-    // The image of a far object has its solid angle from the mirror, times about this; in a ball, its square.
+    // The image of a far object has about the solid angle of the object as seen from the mirror, times this;
+    // in a ball, times its square.
     const double reduced = std::min(1., mirror.radius / (2 * distance));
     for (const Opening& opening : openings_->all()) {
       const V3d middle = opening.at(.5, .5);

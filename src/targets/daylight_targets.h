@@ -8,6 +8,7 @@
 
 namespace rsphere {
 
+// Openings.
 class OpeningTargets {
  public:
   // Leaves out openings that contain special objects: these are targets themselves (special_targets.h).

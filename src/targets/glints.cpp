@@ -72,7 +72,8 @@ std::vector<Part> partsOf(const Scene& scene, const LightSource& source, const S
   return parts;
 }
 
-// The solid angle of the source as seen from the ball, `distance` from its surface; rather too large.
+// The approximate solid angle of the source as seen from the ball, `distance` from its surface. It is rather
+// too large than too small.
 double solidAngleFrom(const LightSource& source, const Sphere& ball, double distance) {
   const auto ofBall = [&] {
     const double sine = std::min(1., source.radius / distance);

@@ -1,7 +1,8 @@
 #pragma once
 // Targets that are glints: the images of light sources in mirroring balls. Most are small and far brighter
 // than their surroundings. The few directions that hit one by chance cause much variance, and directions sent
-// to the ball are spread over all of it. The law of reflection gives the places of the images to aim at.
+// to the ball are spread over the whole ball. The law of reflection gives the places of the images, so that
+// directions can be aimed at them.
 #include <optional>
 #include <span>
 #include <vector>

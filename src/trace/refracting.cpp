@@ -27,7 +27,8 @@ class Refracting {
   }
 
  private:
-  // A chain of modifiers. Each is examined once, because nested mixtures may name it many times.
+  // A chain of modifiers. Each modifier is examined once, because nested mixtures may name the same one many
+  // times.
   bool modifier(ModifierId first) {
     for (ModifierId m = first; m != kNone; m = scene_.modifiers[m].next) {
       std::optional<bool>& known = modifiers_[m];

@@ -84,14 +84,16 @@ struct Found {
   TriangleHit triangleHit;
 };
 
-// The query of a ray of Embree, in the coordinates of the tree. Embree passes the context to callbacks.
+// The query that belongs to a ray of Embree, in the coordinates of the queried tree. Embree passes the
+// context to the callbacks.
 struct Query {
   embree::QueryContext context;  // must be first: callbacks cast its address to that of the Query
   V3d origin, direction;
   double start = 0;     // distance along the true ray at which Embree's ray starts
   double farthest = 0;  // limit of the query
   double samePlace;     // Scene::samePlace, in units of this tree
-  // Hits closer to the origin are ignored: Scene::samePlace, or that of contents. Less if it starts in space.
+  // Hits closer to the origin are ignored: Scene::samePlace, or that of the contents of an instance or mesh.
+  // Less if the ray starts in space.
   double nearest;
   uint8_t depth = 0;  // of the tree: the number of placements that lead to it
   Found best;         // shadow(): the source itself, if it is a surface
@@ -288,7 +290,8 @@ class Tracer::Tree {
     radius_ = bounds_.size().length() / 2;
     samePlace_ = samePlaceIn(bounds_);
     // Embree's ray starts within 2 radii of the center and is at most 4 radii long. Rounding of its origin
-    // moves it by at most 2^-23 radius per coordinate, rounding of its direction by 2^-22.
+    // moves it by at most 2^-23 radius per coordinate, and rounding of its direction by 2^-22 radius over
+    // that length.
     padding_ = radius_ * 0x1p-21;
     tree_ = rtcNewScene(device);
     rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
@@ -348,7 +351,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // Embree's callbacks. `meet`: is the primitive the nearest hit so far? `cross`: does it stop the ray?
+  // Embree's callbacks. `meet` returns whether the primitive is the nearest hit so far, `cross` whether it
+  // certainly stops the ray.
   template <bool (Tree::*meet)(Query&, uint32_t) const>
   static void onIntersect(const RTCIntersectFunctionNArguments* arguments) {
     if (!arguments->valid[0]) return;
@@ -418,7 +422,8 @@ class Tracer::Tree {
     return true;
   }
 
-  // A hit on a mesh without a modifier is attributed to the triangle's material or, without one, to the mesh.
+  // A hit on a mesh without a modifier is attributed to the triangle's material or, if it has none, to the
+  // mesh.
   Owner triangleOwner(uint32_t triangle, const Owner& mesh) const {
     const int32_t material = mesh_->data.triangles[triangle].material;
     return standsForContents(mesh) || material == rad::Mesh::kNoMaterial
@@ -704,7 +709,8 @@ Shadow Tracer::shadow(const V3d& origin, const V3d& direction, double distance, 
     blocked = tree.blocks(query);
   const bool refracted = blocked && embree_->refracting[0] && embree_->refractsBefore(query);
   blocked = blocked && !refracted;
-  // If a ray is unoccluded, the next one usually is too, and testing the old blocker would not pay.
+  // If a ray is unoccluded, the next one usually is too. Testing the old blocker would then take more time
+  // than it saves.
   if (blocker) *blocker = blocked ? query.blocker : kNoBlocker;
   if (blocked) return Shadow::blocked;
   if (refracted) return Shadow::refracted;

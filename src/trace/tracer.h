@@ -44,7 +44,8 @@ enum class Shadow : uint8_t {
   clear,     // nothing is in between
   blocked,   // something opaque is in between, and nothing before it may refract the ray past it
   unsure,    // nothing opaque is in between, but something may transmit light: the ray must be followed
-  refracted  // something may refract the ray past an opaque surface in between: it must be followed
+  refracted  // something opaque is in between, but something before it may refract the ray past it: the ray
+             // must be followed
 };
 
 class Tracer {
@@ -93,12 +94,14 @@ class Tracer {
   // The bounds of each surface, instance and mesh of the world that may refract rays.
   const std::vector<Box3d>& refracting() const { return refracting_; }
 
-  // A region around a point of a surface, to search for small objects (world units; unit normal).
+  // A region around a point of a surface, in which to search for small objects. Lengths are in world units;
+  // the normal is a unit vector.
   struct Neighborhood {
     V3d point, normal;
     double radius = 0;
     double widest = 0;     // largest width of the bounds of a small object along any axis
-    double thickness = 0;  // polygons and rings in planes this near to the surface's belong to it
+    double thickness = 0;  // polygons and rings in planes this close to the surface's plane belong to the
+                           // surface
   };
   // Whether the bounds of a small object are within the radius. Every surface in an instance is an object,
   // and so is an instance that is small as a whole; a mesh is a single object.

@@ -19,7 +19,8 @@ bool intersect(const rad::Mesh& mesh, uint32_t triangle, const V3d& origin, cons
 
 Box3d bounds(const rad::Mesh& mesh, uint32_t triangle);
 
-// Interpolated values of the vertices at a hit: unit normal and coordinates (u, v); 0 if a vertex has none.
+// Interpolated values of the vertices at a hit: the unit normal, and the local coordinates (u, v). Each is 0
+// if a vertex has no such value.
 V3d smoothNormal(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 Imath::V2d localCoordinates(const rad::Mesh& mesh, uint32_t triangle, const TriangleHit& hit);
 

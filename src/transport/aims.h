@@ -1,5 +1,6 @@
 #pragma once
-// Places from which much light comes, at which rays are aimed (importance sampling). find_aims.h finds them.
+// Places from which much light comes, and at which rays are aimed (importance sampling). find_aims.h finds
+// them.
 #include <memory>
 #include <tuple>
 

@@ -8,7 +8,8 @@
 namespace rsphere {
 namespace {
 
-// A fingerprint of all that determines gathered light, except the scene, with the program's version.
+// A fingerprint of everything that determines gathered light, except the scene; includes the program's
+// version.
 uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAccess& access) {
   // Names all members, so that this fails to compile when an option is added. Add the new option below if it
   // changes gathered light. Not used: `sampling`, because spectral runs are not stored; -aw,

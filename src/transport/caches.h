@@ -29,7 +29,8 @@ struct Caches {
 // to the scene and to the places of `aims`. warn: receives warnings about the ambient file.
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn);
 
-// The number of diffuse bounces beyond a patch of the coarse solution; one less if none is at first surfaces.
+// The number of diffuse bounces beyond a patch of the coarse solution. It is one less if patches are never
+// used at the first surface.
 inline int bouncesBeyondPatches(const RayOptions& options) {
   return options.ambientBounces - (options.leastForPatches > 0 ? 0 : 1);
 }

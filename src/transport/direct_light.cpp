@@ -20,7 +20,8 @@ constexpr size_t kAlwaysTested = 2;
 // comparisons take less time than n log n comparisons of a sort, half of which are mispredicted (measured).
 constexpr uint32_t kFew = 24;
 
-// Kinds of sources. The visibility of each is estimated separately, because their occlusion differs.
+// Kinds of sources. The visibility of each kind is estimated separately, because their causes of occlusion
+// differ.
 constexpr int kSourceKinds = 3;
 int kindOf(const LightSource& light) { return light.isVirtual() ? 2 : light.isDistant() ? 1 : 0; }
 
@@ -81,7 +82,8 @@ bool DirectLight::isWhole(const SourceSample& sample) const {
 
 // Sets `value` to the radiance of a source sample that arrives at the receiver; false if none arrives.
 // to.value: the radiance without occlusion. If the shadow ray has to be followed through surfaces that may
-// transmit light, samples of a lobe do not estimate this light; their part is added back to to.coefficient.
+// transmit light, samples of a lobe do not estimate this light, so that their part is added back to
+// to.coefficient.
 bool DirectLight::arrives(Receiver at, Contribution& to, Radiance& value) {
   const SourceSample& sample = *to.sample;
   const LightSource& light = t_.lights().all()[sample.source];
@@ -291,7 +293,8 @@ void DirectLight::add(Receiver at, DirectCoefficient coefficientOf, const V3d& f
     Contribution& c = ranked(tested);
     test(c, ofKind[kindOf(t_.lights().all()[c.sample->source])]);
   }
-  // After an indirect bounce, the rest is estimated without bias: noise averages out, bias would not.
+  // After an indirect bounce, the remaining contributions are estimated without bias: noise averages out
+  // there, but bias would not.
   if (tested < count && ray.ambientLevel > 0) return addOneOf(at, tested, count, value);
   // Sources too weak to be tested are assumed to be visible as often as the tested sources of their kind.
   // Kinds are distinguished because the visibility of lamps does not predict that of the sun, and vice versa.

@@ -2,7 +2,8 @@
 // Next-event estimation: direct light from the light sources, with its shadows.
 //
 // All sources are sampled, and the brightest contributions are tested for shadows first. Contributions too
-// weak to matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection is sampled.
+// weak to matter are estimated without a shadow ray (-dt, -dc). With -Ss, a random selection of sources is
+// sampled.
 #include <vector>
 
 #include "base/function_ref.h"
@@ -20,7 +21,8 @@ using DirectCoefficient = FunctionRef<Coefficient(const V3d& toSource, double so
 using PartOfLobe = FunctionRef<Coefficient(const SourceSample& sample)>;
 
 class DirectLight : PathPart {
-  // Binary logarithm of the size of the table of blockers: 16 kB, half of a core's first-level cache.
+  // Binary logarithm of the size of the table of blockers, which takes 16 kB, half of a core's first-level
+  // cache.
   static constexpr int kBlockerBits = 12;
 
  public:
@@ -39,7 +41,8 @@ class DirectLight : PathPart {
 
   // Adds the direct light to the radiance of the ray (W/sr/m2). The brighter the radiance already is, the
   // fewer sources are tested for shadows. front: normal of a surface that transmits no light, behind which
-  // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all light.
+  // all coefficients are 0; otherwise the null vector. partOfLobe: null if shadow rays estimate all of the
+  // light.
   void add(Receiver at, DirectCoefficient coefficientOf, const V3d& front, const PartOfLobe* partOfLobe,
            Radiance& value);
 

@@ -48,7 +48,8 @@ class GatherDirections {
   Finders::ForEach<ShareOfMixture> shares_;
 };
 
-// Called for each ray before it is followed. Its coefficient is the factor on its radiance in the result.
+// Called for each ray before it is followed. The ray's coefficient is the factor on its radiance in the
+// result.
 using GatherRay = FunctionRef<void(const NextRay& next)>;
 
 // Makes a ray for each direction, starting from a point at the end of the root ray. coefficient: factor on

@@ -246,7 +246,8 @@ void IndirectLight::endPath() {
 }
 
 // The number of directions of a gather. Without interpolation it is RADIANCE's number at every bounce: a
-// square number, proportional to the weight. With it, paths continue with one ray at later bounces.
+// square number, proportional to the weight. With interpolation, a path continues with one ray at later
+// bounces.
 int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient) const {
   if (state_.glimpses) return 1;
   const RayOptions& o = t_.options();
@@ -255,7 +256,8 @@ int IndirectLight::raysOf(const PathContext& ray, const Coefficient& coefficient
                asked = requested > 0 ? requested : o.ambientDivisions + o.ambientSuperSamples,
                weighted = asked * std::min(ray.weight, 1.);
   if (settings_.caches.field) return ray.ambientLevel > 0 ? 1 : std::max(1, static_cast<int>(weighted + .5));
-  // With more directions, each would be below the weight limit, and most end. The factor .8 is RADIANCE's.
+  // With more directions than this, each would be below the weight limit, and most would end. The factor .8
+  // is RADIANCE's.
   const double most = asked * .8 * maxChannel(coefficient) * ray.weight / (divisions * o.weightLimit + 1e-20);
   const int side = std::max(1, static_cast<int>(std::sqrt(std::min(weighted, most)) + .5));
   return side * side;

@@ -242,7 +242,8 @@ OutgoingLight::Owners OutgoingLight::ownersAt(const RayEnd& end) {
           restOf(end, indirect)};
 }
 
-// Russian roulette: paths from both ends leave little light to paths from the eye: only some are followed.
+// Russian roulette: paths from both ends leave little light to paths from the eye, so that only some of these
+// are followed.
 double OutgoingLight::restOf(const RayEnd& end, Owner indirect) {
   const VertexLight& light = *state_.request.vertexLight;
   const bool here = indirect == Owner::here;

@@ -33,7 +33,8 @@ class OutgoingLight : PathPart {
   // Who estimates the light that a surface reflects (owners.h).
   struct Owners {
     Owner ofSources = Owner::eye, highlight = Owner::eye, indirect = Owner::eye;
-    // Factor on the light left to paths from the eye although others own the known light; 0: they end here.
+    // Factor on the light that is left to paths from the eye although others own the known light; 0: they are
+    // not followed here.
     double rest = 1;
   };
   Owners ownersAt(const RayEnd& end);

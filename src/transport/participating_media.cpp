@@ -26,7 +26,8 @@ void ParticipatingMedia::passThrough(const RayEnd& end, Radiance& value) {
   addScattered(end, value);
 }
 
-// Adds single scattering of light from the sources. Steps along the ray (-ms) are sampled at a random point.
+// Adds single scattering of light from the sources. Each step along the ray (-ms) is sampled at one random
+// point.
 void ParticipatingMedia::addScattered(const RayEnd& end, Radiance& value) {
   const Medium& medium = end.medium();
   const double length = end.hit.length;

@@ -27,8 +27,9 @@ struct TracingMode {
   // Whether the light of sources in rough highlights is estimated partly by shadow rays and partly by samples
   // of the lobes (shared_highlights.h). The mean does not change.
   bool sharesHighlights = false;
-  // Whether the number of descendants of a primary ray is limited, to bound the time for each record. In a
-  // closed metal cylinder, for example, paths branch at each surface, into thousands of rays. The mean stays.
+  // Whether the number of descendants of a primary ray is limited, to bound the time for each record. Inside
+  // a closed metal cylinder, for example, paths branch at each surface, into thousands of rays. The mean does
+  // not change.
   bool boundsWork = false;
   // Whether FirstBounce::interpolated uses the irradiance cache. If not, the light of the first diffuse
   // surface is gathered, and that of later ones comes from the coarse solution.

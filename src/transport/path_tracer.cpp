@@ -19,7 +19,8 @@ namespace {
 // scenes it is less (world units).
 double meterLength(const Scene& scene) { return 1e-5 * (scene.samePlace / kSamePlace); }
 
-// Cap on the depth of the recursion, which then takes 40 MB of stack. Threads of runRecords() have more.
+// Cap on the depth of the recursion, which then takes at most 40 MB of stack. Threads of runRecords() have
+// more.
 constexpr int kDeepest = 20500;
 // Stack (bytes) that processing one surface may take, including a ray through nested octrees.
 constexpr uintptr_t kStackReserve = 512 << 10;

@@ -35,7 +35,8 @@ class PathTracer {
                   const PathRequest& request = {});
 
   // Radiance along a primary ray to a light source, equal to the result of trace(). It takes only a shadow
-  // ray if no surface in between may transmit light. TracedRay::shown: whether the source is visible.
+  // ray if no surface in between may transmit light. TracedRay::shown indicates whether the source is visible
+  // along the ray.
   TracedRay traceToSource(const V3d& point, const SourceSample& sample, uint64_t seed,
                           const PathRequest& request = {});
 

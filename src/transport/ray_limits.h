@@ -34,7 +34,8 @@ inline bool survives(Random& random, double least, NextRay& next) {
 // ray's radiance; increased after surviving roulette.
 bool asksForPatch(PathState& state, const PathContext& ray, Coefficient& coefficient);
 
-// Starts counting the descendants of a primary ray, if limited (TracingMode::boundsWork). rays: -ad plus -as.
+// Starts counting the descendants of a primary ray, if their number is limited (TracingMode::boundsWork).
+// rays: -ad plus -as.
 inline Descendants descendantsOfPrimary(const TracingMode& mode, int rays) {
   return {mode.boundsWork ? tuning::RayLimits::kMostDescendants * std::max(rays, 1) : 0, 1, 0, 0, 0};
 }
@@ -50,7 +51,8 @@ inline Descendants descendantsOfPatch(int rays, int depth) {
   return {double{tuning::RayLimits::kFreely} * rays, kMeanReflectance, depth + 1, 1, 0};
 }
 
-// Starts a new count of descendants for a ray of a final gather, if light is interpolated. Two exceptions:
+// Starts a new count of descendants for one ray of a final gather, if light is interpolated. There are two
+// exceptions:
 // - If the descendants of the primary ray are limited, the count for the primary ray continues.
 // - If the gather is for a patch of the coarse solution, the count for all rays of this gather continues.
 //   Only the number of other patches that are used (Descendants::patches) starts again with each ray.
@@ -61,7 +63,8 @@ inline void countDescendants(const PathSettings& settings, PathState& state, con
     state.descendants = {tuning::RayLimits::kMostDescendants, ray.weight, ray.depth, ray.ambientLevel, 0};
 }
 
-// Whether -lr allows further reflections at the end of a ray. Ignores Russian roulette, which has no bias.
+// Whether -lr allows further reflections at the end of a ray. Russian roulette is ignored, because surviving
+// rays compensate for the others.
 inline bool goesOn(const PreparedScene& prepared, const PathContext& ray) {
   const int limit = prepared.options().reflectionLimit;
   return limit == 0 || (limit < 0 && ray.level + 1 <= -limit);

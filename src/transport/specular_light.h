@@ -27,7 +27,8 @@ class SpecularLight : PathPart {
   void add(const RayEnd& end, const Redirects& redirects, RayResult& result);
   void add(const RayEnd& end, const Relays& relays, RayResult& result);
 
-  // Adds the light of a lobe, estimated by samples. kind: of their rays. share: see LobeShare; null: none.
+  // Adds the light of a lobe, estimated by samples. kind: of the samples' rays. share: see LobeShare; null:
+  // none.
   void addLobe(const RayEnd& end, RayKind kind, const Lobe& lobe, LobeSampler draw, const LobeShare* share,
                RayResult& result);
 };

@@ -64,7 +64,8 @@ bool SurfaceShading::shade(RayEnd& end, RayResult& result) {
   const Surface& surface = t_.scene().surfaces[end.hit.surface];
   if (surface.clip & end.context.clips) return false;
   // A shadow ray may leave through a portal and remain known, because light paths carry sunlight that passes
-  // only panes before the portal. Other rays end at it, and new paths find the light beyond.
+  // only panes on its way to the portal. Other rays end at the portal, and new paths find the light beyond
+  // it.
   if (end.context.known != Known::no && end.hit.perturbation == V3d(0, 0, 0) &&
       state_.request.vertexLight->surfaces().knows(end.hit.surface) &&
       ((end.context.kinds & kShadow) || !light_.leavesThroughPortal(end)))
@@ -108,7 +109,8 @@ bool SurfaceShading::shadeChain(RayEnd& end, ModifierId modifier, RayResult& res
   return false;
 }
 
-// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded it with a material.
+// Applies a pattern, texture or mixture to the hit. Returns whether a mixture has shaded the hit with a
+// material.
 inline bool SurfaceShading::applyModifier(RayEnd& end, ModifierId modifier, RayResult& result) {
   const Content& content = t_.scene().modifiers[modifier].content;
   SurfaceHit& hit = end.hit;
@@ -224,7 +226,8 @@ bool SurfaceShading::estimate(RayEnd& end, const CrossesMist& boundary, RayResul
 
 bool SurfaceShading::estimate(RayEnd& end, const CrossesAntimatter& boundary, RayResult& result) {
   if (!entersCut(t_.scene(), boundary, end)) return estimate(end, Passes{}, result);
-  // The material is on the other side of antimatter's surface: a ray that leaves one enters the other.
+  // The material is on the other side of the antimatter's surface: a ray that leaves antimatter enters a
+  // dielectric, and vice versa.
   flip(end.hit);
   end.hit.insideOut = !end.hit.insideOut;
   return shadeChain(end, boundary.cut.modifier, result);

@@ -20,7 +20,8 @@ class SurfaceShading : PathPart {
   // Implements RayFollower::shade().
   bool shadeChain(RayEnd& end, ModifierId modifier, RayResult& result);
 
-  // Shades the end of a ray as a white diffuse surface whose radiance is the irradiance there (-i, -I).
+  // Shades the end of a ray as a white diffuse surface whose radiance is equal to the irradiance there (-i,
+  // -I).
   void meter(RayEnd& end, RayResult& result);
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-// What all path tracers of a run share: the prepared scene, the aims of gathers, and the caches.
+// The data that all path tracers of a run share: the prepared scene, the aims of gathers, and the caches of
+// interpolated light.
 #include "rays/prepared_scene.h"
 #include "transport/aims.h"
 #include "transport/caches.h"

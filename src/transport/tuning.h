@@ -6,15 +6,17 @@
 namespace rsphere::tuning {
 
 // The fractions of the directions of gathers that are aimed (gather_directions.cpp). They are proportional to
-// the estimated light from openings, from spots and from elsewhere. Variance x time is that of paths without
-// interpolation, relative to the chosen value, in four daylit rooms: narrow and wide, overcast and sunny.
+// the estimated light from openings, from spots and from elsewhere. Variance x time is that of paths
+// without interpolation, relative to the chosen value, in four daylit rooms: a narrow and a wide one, each
+// with an overcast sky and with sun.
 struct GatherDirections {
   // Ratio of the fraction of directions aimed at openings, or at spots, to the estimated fraction of light
   // from them. Measured for openings: variance x time 1.3 .9 1 1 with .5, and 7.8 2.4 1.1 1.2 with .3. For
   // spots, the results from .5 to .9 do not differ beyond noise.
   RSPHERE_TUNED(GatherDirections, double, kAimed, .7);
-  // Factor on the estimate of the light from elsewhere, the smaller of two. Both are made near openings,
-  // where rooms are brighter than farther inside. Measured: variance x time 4.8 2.3 .8 1 with 1.
+  // Factor on the estimate of the light from elsewhere, which is the smaller of two estimates. Both are made
+  // near openings, where rooms are brighter than farther inside. Measured: variance x time 4.8 2.3 .8 1 with
+  // 1.
   RSPHERE_TUNED(GatherDirections, double, kFartherInside, .5);
 };
 
@@ -77,8 +79,9 @@ struct RayLimits {
   // contribute little, and each sends rays: without a limit, a point in front of the boxes takes twice the
   // time. Measured there, kFreely and kFurther: 2 and 8 have 6% of noise, 2 and 4 37%, 1 and 1 90%.
   RSPHERE_TUNED(RayLimits, double, kFurther, 8);
-  // Number of patches that each ray of a patch uses, without further ones. The smallest possible, because
-  // rays of patches are numerous. With 4, the point in front of the boxes takes twice the time.
+  // Number of patches that each ray of a patch uses, without further ones. It is the smallest possible
+  // number, because rays of patches are numerous. With 4, the point in front of the boxes takes twice the
+  // time for equal noise.
   static constexpr int kAskedByPatch = 1;
 };
 

@@ -52,7 +52,8 @@ struct RayAnswers {
 };
 
 // Answers to points. F is the integral of the radiance L over all 4 pi sr of directions. With contributors,
-// every quantity except directions and point has a group of columns for the part due to each.
+// every quantity except directions and point has one group of columns for each contributor, with the part due
+// to it.
 struct PointAnswers {
   size_t size = 0;  // the number of points
   // The modifiers of goals, or of light sources with -Sp; empty: quantities are totals.
@@ -94,7 +95,8 @@ struct GlareSource {
 // regardless of the colors that options select. Definitions and sources: GLARE in man/rsphere.1.
 struct GlareAnswers {
   size_t size = 0;                    // the number of eyes
-  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite on black
+  Quantity unifiedGlareRating;        // u  UGR, CIE 117; 0 without glare sources, infinite on a black
+                                      // background
   Quantity ugrStandardError;          // U  estimated, like the other standard errors
   Quantity illuminance;               // v  at the eye, in a plane perpendicular to the gaze
   Quantity illuminanceStandardError;  // V

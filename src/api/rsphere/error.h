@@ -13,7 +13,8 @@ namespace RSPHERE_API_NAMESPACE {
 class RSPHERE_API Error : public std::runtime_error {
  public:
   // input: an error in the scene, the options or the records; exit status 1 of the command. system: a file
-  // cannot be opened, or memory or threads are short; exit status 2. stopped: Options::stop returned true.
+  // cannot be opened, or memory or threads are insufficient; exit status 2. stopped: Options::stop returned
+  // true.
   enum class Cause { input, system, stopped };
 
   Error(const std::string& text, Cause cause);

@@ -49,7 +49,8 @@ struct Options {
   std::optional<std::array<double, 3>> ambientValue;  // -av  W/sr/m2, replaces further reflections
   std::optional<int> limitReflections;                // -lr  most reflections along a path
   std::optional<double> limitWeight;                  // -lw  weight below which paths end
-  std::optional<int> rotation;                        // -Sr  random numbers, for independent repetitions
+  std::optional<int> rotation;                        // -Sr  selects random numbers, for independent
+                                                      // repetitions
 
   // Rays
   bool irradianceAtOrigin = false;   // -I  irradiance of sensors at the origins, facing along the directions

@@ -1,5 +1,6 @@
 #pragma once
-// Light in scenes in RADIANCE's format: along rays, like rtrace, and at points, averaged over all directions.
+// Light in scenes in RADIANCE's format: along rays, computed like rtrace, and at points, averaged over all
+// directions.
 //
 //   rsphere::Scene scene({"sky.rad", "room.rad"});
 //   rsphere::Options options;
@@ -38,7 +39,8 @@ struct Sensor {
 //    or on other records and calls. (With -u+ it also depends on the position in the call.)
 // 3. The preparations for the last options are kept, including interpolated light (-aa), so that repeated
 //    calls with equal options are fast. Threads, outputs and colors may differ.
-// 4. Files that answers need are read, along RAYPATH, by the constructor or when options name them.
+// 4. Files that answers need are read by the constructor, or when options name them. They are searched for
+//    along RAYPATH.
 class RSPHERE_API Scene {
  public:
   // files: one octree, or files of scene text in order, or '!command's, as on the command line. Throws Error

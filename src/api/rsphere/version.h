@@ -1,5 +1,6 @@
 #pragma once
-// The version of the library with these headers. Programs compiled for 1.x run with any later 1.y: version().
+// The version of the library with these headers. Programs compiled for 1.x run with any later 1.y; version()
+// returns the version in use.
 
 #define RSPHERE_VERSION_MAJOR 1
 #define RSPHERE_VERSION_MINOR 0

@@ -8,7 +8,8 @@ namespace rsphere {
 // A file in memory. It has no name, so that nothing remains if the program is killed.
 class MemoryFile {
  public:
-  // A file of `bytes`, with its offset at their start. Throws rad::Error (Status::system) if it fails.
+  // The file contains `bytes`, and its offset is at their start. Throws rad::Error (Status::system) if it
+  // cannot be created.
   explicit MemoryFile(std::string_view bytes = {});
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;

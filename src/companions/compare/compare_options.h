@@ -19,7 +19,8 @@ struct CompareOptions : Options {
   std::string page;           // -Ch
 };
 
-// Describes rsphere-compare for parseCompanion(), with CompareOptions: ray mode unless -S is given.
+// Describes rsphere-compare for parseCompanion(), with CompareOptions. It uses ray mode unless -S selects
+// sphere mode.
 const Companion& compareCompanion();
 
 }  // namespace rsphere

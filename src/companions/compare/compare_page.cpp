@@ -152,7 +152,8 @@ std::string comparePlot(const Answers& ours, const Answers& original, const Comp
   const double ratio = (1 + subject.tolerance / 2) / (1 - subject.tolerance / 2);
   diagonal(ratio, kDashes);
   diagonal(1 / ratio, kDashes);
-  for (const bool within : {true, false}) {  // marks beyond the tolerance are drawn last: none is hidden
+  for (const bool within : {true, false}) {  // marks beyond the tolerance are drawn last, so that none is
+                                             // hidden
     bool any = false;
     for (const Mark& mark : marks) {
       if (mark.within != within) continue;

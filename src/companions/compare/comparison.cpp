@@ -62,7 +62,8 @@ std::vector<Pair> pairsOf(const Values& ours, const Values& original, size_t rec
 }
 
 // The scale for the differences of a record: the mean of both programs. With the mean of one program, an
-// outlier of that program would also enlarge the scale, so that its noise would look smaller.
+// outlier of that program would also enlarge the scale, so that its noise would look smaller than the
+// other's.
 double scaleOf(const Pair& pair, double mean) {
   const double own = std::abs(pair.original.mean() + pair.ours.mean()) / 2;
   return std::max({own, kDarkest * std::abs(mean), 1e-300});

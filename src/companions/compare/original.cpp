@@ -19,7 +19,8 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 
 [[noreturn]] void fault(const std::string& text) { throw rad::Error(text, rad::Status::system); }
 
-// The paths of all programs of this name, in the order of PATH. A name with a slash is already a path.
+// The paths of all programs of this name, in the order of PATH. A name that contains a slash is already a
+// path.
 std::vector<std::string> programsNamed(const std::string& name) {
   if (name.find('/') != std::string::npos) return {name};
   const char* path = std::getenv("PATH");

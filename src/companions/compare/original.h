@@ -35,6 +35,7 @@ class Original {
   // (Status::system), with the original's message, if it fails or returns a different number of values.
   std::vector<double> answers(std::span<const double> rays, const std::string& letters, size_t perRay);
 
+  // The names of the surfaces hit by rays.
   std::vector<std::string> surfaces(std::span<const double> rays);
 
   // CPU time in seconds: of all calls of answers(), and of oconv.

@@ -17,7 +17,8 @@ struct PageTable {
   };
   std::vector<std::string> head;
   std::vector<Row> rows;
-  size_t textColumns = 1;   // number of text columns at the left; the others are numbers, aligned right
+  size_t textColumns = 1;   // number of text columns at the left; the other columns are numbers, aligned at
+                            // the right
   bool lastIsText = false;  // whether the last column is text, too
 };
 

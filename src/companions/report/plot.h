@@ -37,6 +37,7 @@ class Plot {
   // extent is not empty, and its values are above 0 and finite.
   Plot(std::string title, std::span<const PlotPoint> extent, AxisText x, AxisText y, bool sameScale = false);
 
+  // The ends of the x axis.
   double xLow() const { return x_.low; }
   double xHigh() const { return x_.high; }
 

@@ -8,7 +8,8 @@
 
 namespace rsphere {
 
-// Answers (brightness of the mean radiance), in repeat r at [r * points, (r + 1) * points).
+// Answers (brightness of the mean radiance). The answers to all points in repeat r are at [r * points, (r +
+// 1) * points).
 struct RepeatedAnswers {
   size_t points = 0;
   std::vector<double> values;
@@ -59,13 +60,15 @@ struct Figures {
   double bias = 0, biasError = 0;  // mean error, and its standard error
   bool biased = false;             // whether the bias is significant (99%)
   double estimated = 0;            // rms of the standard errors estimated by the setting
-  bool limited = false;  // whether the reference's error is over half of the difference: rms is uncertain
+  bool limited = false;  // whether the error of the reference is over half of the difference found, so that
+                         // rms is uncertain
   bool best = false;     // whether no other setting is both as fast and as accurate
 };
 
 // REQUIRES: the trial has at least one repeat of the points of the reference.
 Figures figuresOf(const Trial& trial, const Reference& reference);
 
+// Sets Figures::best for each setting.
 void markBest(std::vector<Figures>& all);
 
 // The index of the fastest setting whose rmsAtMost is within the accuracy; empty if there is none.

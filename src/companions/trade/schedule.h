@@ -9,7 +9,8 @@
 namespace rsphere {
 
 struct ReferenceProgress {
-  double rotations = 0;          // finished rotations; below 1, the fraction of points answered in the first
+  double rotations = 0;          // number of finished rotations; below 1, the fraction of points answered in
+                                 // the first one
   size_t leastRotations = 0;     // minimum number of rotations
   double seconds = 0;            // time taken
   double error = 0, target = 0;  // relative standard error: achieved, and requested
@@ -29,7 +30,8 @@ double secondsLeft(const ReferenceProgress& progress);
 std::string slowReference(const ReferenceProgress& progress);
 
 // The relative cost of a setting: its directions times the power 3/4 of the indirect rays of each (-ad). For
-// the default settings this is right within a factor of about two, enough to predict the remaining time.
+// the default settings this is right within a factor of about two, which is sufficient to predict the
+// remaining time.
 double costOf(const AnswerOptions& setting);
 
 // The time in seconds for the remaining settings, predicted from the time for the first `done` settings.

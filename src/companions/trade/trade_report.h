@@ -12,7 +12,8 @@ namespace rsphere {
 std::string tradeTable(std::span<const Figures> all);
 std::string tradeCsv(std::span<const Figures> all, const Reference& reference);
 
-// States that errors exclude the light of further bounces, which the reference omits, and how to measure it.
+// States that errors do not include the light of further bounces, because the reference omits it as well, and
+// how to measure it.
 std::string bouncesText(int bounces);
 
 // The subject of a report, apart from the settings.
@@ -29,7 +30,8 @@ struct TradeSubject {
   std::string given;           // the command line of rsphere-trade
   std::string referenceWords;  // the setting of the reference
   int repeats = 0;             // number of repeats of each setting
-  size_t repeatsOfLast = 0;    // number of repeats of the last setting, if a signal ended it early; or 0
+  size_t repeatsOfLast = 0;    // number of repeats of the last setting, if a signal ended it early; otherwise
+                               // 0
 };
 
 // An SVG plot of rms error against seconds for a point, with logarithmic axes. Each setting is a mark in the

@@ -56,7 +56,8 @@ std::string encode(const std::string& name, int width, int height, bool radiance
   if (!output) return OIIO::geterror();
   OIIO::ImageSpec spec(width, height, 3, radiance ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", radiance ? "Linear" : "sRGB");
-  // PFM begins with the lowest row. OpenImageIO 2.5 writes PPM in that order too unless told not to.
+  // PFM begins with the lowest row. OpenImageIO 2.5 writes the rows of PPM in that order too unless told
+  // not to.
   spec.attribute("pnm:pfmflip", radiance ? 1 : 0);
   const auto write = [&](const std::string& path) {
     return output->open(path, spec) && output->write_image(OIIO::TypeDesc::FLOAT, pixels) && output->close();
