@@ -172,7 +172,7 @@ std::vector<PathTracer> RayEstimator::tracers() const {
     tracers.push_back(transport_.pathTracer(mode));
   static const Caches none;
   if (options_.accuracy > 0 && transport_.caches().coarse)
-    tracers.emplace_back(transport_.prepared(), none, transport_.aims(), mode);
+    tracers.emplace_back(transport_.prepared(), none, transport_.aims());
   return tracers;
 }
 

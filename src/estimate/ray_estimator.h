@@ -42,7 +42,7 @@ class RayEstimator {
   // The rays of patches (RayOptions::raysForPatches) with which an accuracy can be reached.
   static double raysForPatches(const RayOptions& options, double accuracy);
 
-  // What one thread needs: a tracer for each solution.
+  // What one thread needs: a tracer for each solution and, with -Sa, one that uses no patches.
   std::vector<PathTracer> tracers() const;
 
   struct Estimate {

@@ -33,7 +33,8 @@ struct LightVertex {
 
   // Whether the light of the vertex is added with the unbounded kernel 1 / d^2 (vertex_light.h), because rays
   // towards near surfaces do not sample this light.
-  bool isUnbounded() const { return way == highlight || way == mirrored || way == sharp; }
+  bool isUnbounded() const { return isUnbounded(way); }
+  static bool isUnbounded(Way way) { return way == highlight || way == mirrored || way == sharp; }
   V3d point() const { return V3d(place[0], place[1], place[2]); }
   V3d normal() const { return V3d(facing[0], facing[1], facing[2]); }
 };

@@ -344,8 +344,7 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   beam_.power =
       Irradiance(beam_.power.color * at.color() * (diffuseShare(m, at.normal.dot(beam_.direction)) * scale));
   past_.senderIsMirrored = past_.way == LightVertex::mirrored;
-  past_.senderIsUnbounded =
-      past_.senderIsMirrored || past_.way == LightVertex::sharp || past_.way == LightVertex::highlight;
+  past_.senderIsUnbounded = LightVertex::isUnbounded(past_.way);
   past_.way = LightVertex::diffuse;
   ++past_.bounces;
   return std::abs(brightness(beam_.power)) > 0;

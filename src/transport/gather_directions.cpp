@@ -77,7 +77,8 @@ GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d
         ((part.share = shareOf(part, from.all, part...)), ...);
         // A whole number of directions is aimed, so that the others have equal parts of exactly what is left.
         // Where few directions are drawn, as at patches, the part of these others would otherwise vary from
-        // set to set, by up to 1.7 between 4 of which .7 are aimed, and light could grow from patch to patch.
+        // set to set, and light could grow from patch to patch: of 4 directions, .7 of them aimed, 1 or 2 are
+        // not, and 2 count 1.67 times. Where less than a quarter is aimed, the others vary little.
         const double aimed = (... + part.share);
         const double whole = std::min(std::round(aimed * rays), rays - 1.) / rays;
         if (aimed > 1. / 4 && rays > 1) ((part.share *= whole / aimed), ...);
