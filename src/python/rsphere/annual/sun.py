@@ -10,7 +10,7 @@ def day_of_year(month, day):
 
 def sun_position(month, day, hour, latitude, longitude, zone):
     """Altitude, and azimuth from north towards east (radians), at an hour of local standard time. Latitude, longitude and the
-    meridian of the time zone in degrees north and east. By the formulas of RADIANCE's gensky (IES RP-21, 1984)."""
+    meridian of the time zone in degrees north and east. By the formulas of RADIANCE's gensky before 2019 (IES RP-21, 1984)."""
     j = day_of_year(month, day)
     declination = 0.4093 * math.sin(2 * math.pi * (j - 81) / 368)
     equation = 0.170 * math.sin(4 * math.pi * (j - 80) / 373) - 0.129 * math.sin(2 * math.pi * (j - 8) / 355)
