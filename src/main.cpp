@@ -66,13 +66,11 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
     _exit(exitStatus(messages, [&]() -> int { std::rethrow_exception(fault); }));
   };
   end.ended = [&] { summary.tell(messages, options, transport.prepared()); };
-  const auto checkStop = [&] { signals.check(); };
   runRecords(reader, writer, options, messages, &signals,
-             !options.sphereMode ? answerRays(transport, options, answers, warn, summary, checkStop)
+             !options.sphereMode ? answerRays(transport, options, answers, warn, summary)
              : options.sphere.glare.wanted
-                 ? answerGlare(transport, options, answers, warn, summary, checkStop)
-                 : answerPoints(transport, options, answers, warn, summary, checkStop,
-                                pictureReport(options, messages)),
+                 ? answerGlare(transport, options, answers, warn, summary)
+                 : answerPoints(transport, options, answers, warn, summary, pictureReport(options, messages)),
              end);
 }
 

@@ -8,13 +8,9 @@
 
 namespace rsphere {
 
-GlareWorkers::GlareWorkers(const Transport& transport, const AnswerOptions& options,
-                           const std::function<void()>& checkStop)
+GlareWorkers::GlareWorkers(const Transport& transport, const AnswerOptions& options)
     : estimator_(transport, options.sphere) {
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) {
-    workspaces_.emplace_back(estimator_.means());
-    workspaces_.back().checkStop = checkStop;
-  }
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces_.emplace_back(estimator_.means());
 }
 
 GlareAnswer GlareWorkers::answer(const Record& record, unsigned worker) {
@@ -30,8 +26,8 @@ GlareAnswer GlareWorkers::answer(const Record& record, unsigned worker) {
 }
 
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                         const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop) {
-  const auto workers = std::make_shared<GlareWorkers>(transport, options, checkStop);
+                         const rad::Warn& warn, RunSummary& summary) {
+  const auto workers = std::make_shared<GlareWorkers>(transport, options);
   if (isDark(transport.prepared())) warn("no light sources found");
   return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
     const GlareAnswer answer = workers->answer(record, worker);

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "answer/answer_options.h"
@@ -13,10 +12,8 @@ namespace rsphere {
 // The estimator of glare (-Su), with a workspace for each thread of -n.
 class GlareWorkers {
  public:
-  // checkStop is called repeatedly during an estimate; it may throw to abandon the eye. Keeps a reference to
-  // the transport.
-  GlareWorkers(const Transport& transport, const AnswerOptions& options,
-               const std::function<void()>& checkStop = {});
+  // Keeps a reference to the transport.
+  GlareWorkers(const Transport& transport, const AnswerOptions& options);
 
   // record: eye and gaze. Throws rad::Error with the number of the record if the gaze is 0 or vertical.
   // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.
@@ -28,9 +25,8 @@ class GlareWorkers {
 };
 
 // The function that answers eyes: appends the indices of glare, or a record of each glare source (-Sd). Warns
-// if nothing in the scene emits light. checkStop: see GlareWorkers; it is copied. All other arguments must
-// exist as long as the result.
+// if nothing in the scene emits light. All arguments must exist as long as the result.
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                         const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop);
+                         const rad::Warn& warn, RunSummary& summary);
 
 }  // namespace rsphere

@@ -6,6 +6,7 @@
 #include "answer/header.h"
 #include "base/constants.h"
 #include "base/spectral_sampling.h"
+#include "base/stop_check.h"
 #include "pictures/draw_point.h"
 #include "process/threads.h"
 
@@ -24,7 +25,7 @@ class PictureMaker {
         sources_(transport_.prepared()),
         report_(report) {}
 
-  void write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const;
+  void write(PictureFile& file, const V3d& point) const;
 
  private:
   const AnswerOptions& options_;
@@ -33,7 +34,7 @@ class PictureMaker {
   const PictureProgress::Report report_;
 };
 
-void PictureMaker::write(PictureFile& file, const V3d& point, const std::function<void()>& checkStop) const {
+void PictureMaker::write(PictureFile& file, const V3d& point) const {
   const bool isRadiance = file.format() == PictureFormat::radiance;
   const Projection whole = isRadiance ? Projection::angularFisheye : Projection::latitudeLongitude;
   const PixelMap map(options_.pictureForm.viewAngle > 0 ? Projection::perspective : whole,
@@ -43,7 +44,7 @@ void PictureMaker::write(PictureFile& file, const V3d& point, const std::functio
   PictureProgress progress(file.name(), report_,
                            options_.progressSeconds > 0 ? options_.progressSeconds : kReportSeconds);
   const auto onward = [&](double done) {
-    if (checkStop) checkStop();
+    StopCheck::here();
     progress.at(done);
   };
   const bool forScreen = file.format() == PictureFormat::screen;
@@ -55,13 +56,9 @@ void PictureMaker::write(PictureFile& file, const V3d& point, const std::functio
 
 }  // namespace
 
-PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
-                           const std::function<void()>& checkStop)
+PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError)
     : estimator_(transport, options.sphere, standardError) {
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) {
-    workspaces_.emplace_back(estimator_);
-    workspaces_.back().checkStop = checkStop;
-  }
+  for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces_.emplace_back(estimator_);
 }
 
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
@@ -71,10 +68,9 @@ void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
 
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
-                          const std::function<void()>& checkStop,
                           const PictureProgress::Report& pictureReport) {
   const bool standardError = haveErrors(options.outputs);
-  const auto workers = std::make_shared<PointWorkers>(transport, options, standardError, checkStop);
+  const auto workers = std::make_shared<PointWorkers>(transport, options, standardError);
   if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()
                             ? nullptr
@@ -88,7 +84,7 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
     const PointAnswer answer = workers->answer(point, worker);
     summary.add(record.index, answer, transport.prepared());
     SphereEstimator::Workspace& workspace = workers->workspace(worker);
-    if (pictures) pictures->write(*picture, point, workspace.checkStop);
+    if (pictures) pictures->write(*picture, point);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)
       writer.write(bytes,

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "answer/answer_options.h"
@@ -14,11 +13,9 @@ namespace rsphere {
 // The estimator of sphere mode, with a workspace for each thread of -n.
 class PointWorkers {
  public:
-  // standardError: whether PointAnswer should contain standard errors. checkStop is called repeatedly during
-  // an estimate; it may throw to abandon the point. Keeps a reference to the transport. Throws the errors of
-  // SphereEstimator.
-  PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError,
-               const std::function<void()>& checkStop = {});
+  // standardError: whether PointAnswer should contain standard errors. Keeps a reference to the transport.
+  // Throws the errors of SphereEstimator.
+  PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError);
 
   // REQUIRES: worker is below threadCount(options.threads), and no other call for it is in progress.
   PointAnswer answer(const V3d& point, unsigned worker) {
@@ -39,12 +36,11 @@ class PointWorkers {
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader);
 
 // The function that answers points in sphere mode: appends the spherical mean, or a record of each direction
-// (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene emits light. checkStop: see
-// PointWorkers; it is copied. pictureReport: receives the progress of pictures. All other arguments must
-// exist as long as the result. Throws the errors of PointWorkers.
+// (-Sd), and writes pictures of the points (-Si). Warns if nothing in the scene emits light.
+// pictureReport: receives the progress of pictures. All other arguments must exist as long as the result.
+// Throws the errors of PointWorkers.
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
-                          const std::function<void()>& checkStop,
                           const PictureProgress::Report& pictureReport = {});
 
 }  // namespace rsphere

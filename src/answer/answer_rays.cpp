@@ -19,22 +19,21 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
   return tracers;
 }
 
-EstimatedRays::EstimatedRays(const Transport& transport, const AnswerOptions& options,
-                             const std::function<void()>& checkStop)
-    : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}), checkStop_(checkStop) {
+EstimatedRays::EstimatedRays(const Transport& transport, const AnswerOptions& options)
+    : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}) {
   for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers_.push_back(estimator_.tracers());
 }
 
 RayEstimator::Estimate EstimatedRays::estimate(unsigned worker, const InputRay& in, double farthest,
                                                uint64_t seed) {
-  return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed, {}, checkStop_);
+  return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed);
 }
 
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn, RunSummary& summary, const std::function<void()>& checkStop) {
+                        const rad::Warn& warn, RunSummary& summary) {
   const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
   const auto estimated =
-      options.estimatesRays() ? std::make_shared<EstimatedRays>(transport, options, checkStop) : nullptr;
+      options.estimatesRays() ? std::make_shared<EstimatedRays>(transport, options) : nullptr;
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const ShownShadows shadows = options.treeShadows ? ShownShadows::all : ShownShadows::thatPassSurfaces;
   const bool valueAlone = options.outputs == "v";

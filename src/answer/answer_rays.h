@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,25 +22,20 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
 // estimate() at a time.
 class EstimatedRays {
  public:
-  // Keeps a reference to the transport. checkStop: called while a ray is computed; what it
-  // throws is passed on to the caller.
-  EstimatedRays(const Transport& transport, const AnswerOptions& options,
-                const std::function<void()>& checkStop);
+  // Keeps a reference to the transport.
+  EstimatedRays(const Transport& transport, const AnswerOptions& options);
   // farthest, seed: as for PathTracer::trace().
   RayEstimator::Estimate estimate(unsigned worker, const InputRay& in, double farthest, uint64_t seed);
 
  private:
   RayEstimator estimator_;
-  std::function<void()> checkStop_;
   std::vector<std::vector<PathTracer>> tracers_;  // by thread
 };
 
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values
 // are requested and the scene has no light source; also of names of -te and -ti that are the modifier of no
-// surface. The summary gets the sensors of -I. checkStop: called while a ray with an accuracy (-Sa) is
-// computed. All arguments must exist as long as the result.
+// surface. The summary gets the sensors of -I. All arguments must exist as long as the result.
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                        const rad::Warn& warn, RunSummary& summary,
-                        const std::function<void()>& checkStop = {});
+                        const rad::Warn& warn, RunSummary& summary);
 
 }  // namespace rsphere

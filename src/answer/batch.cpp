@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "answer/answer_writer.h"
+#include "base/stop_check.h"
 #include "process/threads.h"
 
 namespace rsphere {
@@ -189,6 +190,9 @@ class Batch {
   }
 
   void work(unsigned worker) {
+    const StopCheck stopCheck([this] {
+      if (signals_ != nullptr) signals_->check();
+    });
     try {
       Claim claim;
       for (size_t most = 1; take(claim, most);) {

@@ -72,8 +72,8 @@ RayContributions::RayContributions(const Transport& transport, const AnswerOptio
                        RayEstimator::Options{options.sphere.accuracy, options.sphere.accuracyFloor}, what);
 }
 
-void RayContributions::answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
-                              const std::function<void()>& checkStop) {
+void RayContributions::answer(const Record& record, unsigned worker, std::string& bytes,
+                              RunSummary& summary) {
   std::vector<double> sums(numbers()), errors(hasErrors() ? numbers() : 0);
   if (!record.bogus) {
     const InputRay in = inputRay(record.numbers.data(), options_.irradiance, samePlace_);
@@ -83,8 +83,7 @@ void RayContributions::answer(const Record& record, unsigned worker, std::string
       return list.columns()[i / components_] * components_ + i % components_;
     };
     if (estimator_) {
-      const auto estimate =
-          estimator_->estimate(tracers_[worker], in.origin, in.direction, farthest, seed, checkStop);
+      const auto estimate = estimator_->estimate(tracers_[worker], in.origin, in.direction, farthest, seed);
       summary.add(record.index, estimate.sum);
       for (size_t i = 0; i < estimate.variances.size(); ++i) {
         sums[at(estimate.means, i)] = estimate.means.values()[i];

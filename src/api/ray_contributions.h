@@ -27,10 +27,8 @@ class RayContributions {
   RayContributions(const RayContributions&) = delete;
   RayContributions& operator=(const RayContributions&) = delete;
 
-  // summary: gets the error of the sum of the contributions, with an accuracy. checkStop: called while a ray
-  // with an accuracy is computed.
-  void answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary,
-              const std::function<void()>& checkStop = {});
+  // summary: gets the error of the sum of the contributions, with an accuracy.
+  void answer(const Record& record, unsigned worker, std::string& bytes, RunSummary& summary);
   bool hasErrors() const { return samples_ > 1 || estimator_; }
   // Number of values in the means of a record.
   size_t numbers() const { return static_cast<size_t>(tracked_.columns()) * components_; }

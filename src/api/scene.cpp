@@ -22,6 +22,7 @@
 #include "api/command_line.h"
 #include "api/ray_contributions.h"
 #include "base/color.h"
+#include "base/stop_check.h"
 #include "cli/options.h"
 #include "process/threads.h"
 #include "rad_parser/printable.h"
@@ -153,14 +154,11 @@ struct Answerer {
         scene(std::move(prepared)),
         writer(options),
         warn(scene->warnings.collector()) {
-    const auto checkStop = [this] {
-      if (stop) throw Stopped();
-    };
     if (options.sphere.glare.wanted)
-      answer = withSources(checkStop);
+      answer = withSources();
     else
-      answer = options.sphereMode ? answerPoints(scene->transport, options, writer, warn, *summary, checkStop)
-                                  : answerRays(scene->transport, options, writer, warn, *summary, checkStop);
+      answer = options.sphereMode ? answerPoints(scene->transport, options, writer, warn, *summary)
+                                  : answerRays(scene->transport, options, writer, warn, *summary);
   }
   // For contributions to rays.
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
@@ -170,9 +168,7 @@ struct Answerer {
                           how.coefficients ? Contributed::coefficients : Contributed::values, how.samples,
                           warn);
     const AnswerRecord answerRay = [this](const Record& record, unsigned worker, std::string& bytes) {
-      contributions->answer(record, worker, bytes, *summary, [this] {
-        if (stop) throw Stopped();
-      });
+      contributions->answer(record, worker, bytes, *summary);
     };
     answer = withSensors(answerRay, options, scene->transport.prepared(), *summary);
   }
@@ -186,16 +182,16 @@ struct Answerer {
   AnswerRecord answer;
 
  private:
-  AnswerRecord withSources(const std::function<void()>& checkStop);
+  AnswerRecord withSources();
 };
 
 // The letters of a glare source, in the order in which takeSources() reads them.
 constexpr const char* kSourceLetters = "dlLwWps";
 
 // Appends the glare sources of an eye to its record.
-AnswerRecord Answerer::withSources(const std::function<void()>& checkStop) {
+AnswerRecord Answerer::withSources() {
   if (isDark(scene->transport.prepared())) warn("no light sources found");
-  const auto workers = std::make_shared<GlareWorkers>(scene->transport, options, checkStop);
+  const auto workers = std::make_shared<GlareWorkers>(scene->transport, options);
   const auto ofSources = std::make_shared<rsphere::Options>(options);
   ofSources->outputs = kSourceLetters;
   ofSources->sphere.everyDirection = true;
@@ -257,6 +253,9 @@ class Call {
 
  private:
   void work(unsigned worker) {
+    const StopCheck stopCheck([this] {
+      if (answerer_.stop) throw Stopped();
+    });
     std::string bytes;
     for (size_t first = next_.fetch_add(claim_); first < records_; first = next_.fetch_add(claim_))
       for (size_t i = first; i < std::min(first + claim_, records_); ++i) {
@@ -264,7 +263,7 @@ class Call {
         // regardless of threads.
         if (i > faultAt_) return;
         try {
-          if (answerer_.stop) throw Stopped();
+          StopCheck::here();
           answer(i, worker, bytes);
         } catch (...) {
           fail(i);

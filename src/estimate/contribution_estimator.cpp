@@ -47,9 +47,9 @@ ContributionEstimator::ContributionEstimator(const Transport& transport, RayEsti
                  }()),
       sampling_(transport.prepared().options().sampling) {}
 
-ContributionEstimator::Estimate ContributionEstimator::estimate(
-    ContributionTracer& tracer, const V3d& origin, const V3d& direction, double farthest, uint64_t seed,
-    const std::function<void()>& checkStop) const {
+ContributionEstimator::Estimate ContributionEstimator::estimate(ContributionTracer& tracer, const V3d& origin,
+                                                                const V3d& direction, double farthest,
+                                                                uint64_t seed) const {
   Estimate answer{ContributionList(tracer.components()), {}, {}};
   constexpr size_t kSets = RayEstimator::kSets, kInHalf = kSets / 2;
   const auto components = static_cast<size_t>(tracer.components());
@@ -63,7 +63,7 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(
     ray.value = sumOf(list, sampling_);
     return ray;
   };
-  answer.sum = estimator_.estimate(gather, seed, checkStop);
+  answer.sum = estimator_.estimate(gather, seed);
 
   for (size_t set = 0; set < kSets; ++set) addTimes(1 / (kSets * rays[set]), sums[set], answer.means);
   // The variance of the mean of a half is s^2 / kInHalf, and that of the mean of both a quarter of their sum.

@@ -5,7 +5,6 @@
 // The ray is estimated by the independent sets of RayEstimator, whose value here is the sum of all
 // contributions. The standard error of a contribution follows from the spread of the sets in each half. With
 // four sets in a half, the error of a single bin is itself uncertain by about 30%.
-#include <functional>
 #include <vector>
 
 #include "contrib/tracked.h"
@@ -26,9 +25,9 @@ class ContributionEstimator {
                                     // a unit for coefficients
     RayEstimator::Estimate sum;     // of all contributions
   };
-  // Parameters: PathTracer::trace(). checkStop is called between rounds; its exceptions pass.
+  // Parameters: PathTracer::trace().
   Estimate estimate(ContributionTracer& tracer, const V3d& origin, const V3d& direction, double farthest,
-                    uint64_t seed, const std::function<void()>& checkStop = {}) const;
+                    uint64_t seed) const;
 
  private:
   RayEstimator estimator_;

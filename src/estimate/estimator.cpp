@@ -305,7 +305,6 @@ PointAnswer SphereEstimator::estimate(const V3d& point, Workspace& workspace) co
   uint64_t sets = 0;
   size_t directions = 0, largest = 0, lit = 0;
   for (auto next = decision.next(); next && directions + largest <= most; next = decision.next()) {
-    if (workspace.checkStop) workspace.checkStop();
     SampledSet set =
         strategy.sample(SetAtPoint(point, sets++, options_.rotation), workspace.tracer, workspace.voronoi_);
     const Moments moments = set.moments(base_);

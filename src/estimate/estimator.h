@@ -41,8 +41,6 @@ class SphereEstimator {
   struct Workspace {
     explicit Workspace(const SphereEstimator& estimator);
     PathTracer tracer;
-    // Called before each set of directions; may throw to abandon the point.
-    std::function<void()> checkStop;
     // The directions of the last point. With -Sa they are kept only if every direction is requested (-Sd),
     // because there may be a million. With -Sd, their radiances times solid angles sum to the integral of the
     // answer: SampledSet::excess is distributed among the radiances in proportion to the light of the glances

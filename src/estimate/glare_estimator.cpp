@@ -199,7 +199,6 @@ bool GlareEstimator::isLamp(SurfaceId surface) const {
 }
 
 void GlareEstimator::addSet(const SetAtPoint& set, SphereEstimator::Workspace& workspace, View& view) const {
-  if (workspace.checkStop) workspace.checkStop();
   const SampledSet sampled = means_.sampleSet(set, workspace);
   View::Set& kept = view.sets[set.number()];
   kept.illuminance = luminance(Radiance(means_.momentsOf(sampled, set).atEye.color));

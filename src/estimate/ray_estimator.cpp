@@ -178,8 +178,7 @@ std::vector<PathTracer> RayEstimator::tracers() const {
 
 RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, const V3d& origin,
                                               const V3d& direction, double farthest, uint64_t seed,
-                                              PathRequest request,
-                                              const std::function<void()>& checkStop) const {
+                                              PathRequest request) const {
   const bool usesPatches = transport_.caches().coarse != nullptr;
   const auto trace = [&](PathTracer& tracer, int rays, uint64_t ownSeed) {
     request.rays = rays;
@@ -188,22 +187,19 @@ RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, 
   const auto solutions = static_cast<size_t>(transport_.prepared().options().solutions);
   const Attempt attempted =
       attempt([&](size_t set, int rays, uint64_t own) { return trace(tracers[set % solutions], rays, own); },
-              seed, usesPatches, checkStop);
+              seed, usesPatches);
   if (!attempted.patchesTooNoisy) return attempted.estimate;
-  const Attempt byPaths =
-      attempt([&](size_t, int rays, uint64_t own) { return trace(tracers.back(), rays, own); }, mixBits(seed),
-              false, checkStop);
+  const Attempt byPaths = attempt(
+      [&](size_t, int rays, uint64_t own) { return trace(tracers.back(), rays, own); }, mixBits(seed), false);
   const bool better = byPaths.estimate.relativeError < attempted.estimate.relativeError;
   return (better ? byPaths : attempted).estimate;
 }
 
-RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t seed,
-                                              const std::function<void()>& checkStop) const {
-  return attempt(gather, seed, transport_.caches().coarse != nullptr, checkStop).estimate;
+RayEstimator::Estimate RayEstimator::estimate(const Gather& gather, uint64_t seed) const {
+  return attempt(gather, seed, transport_.caches().coarse != nullptr).estimate;
 }
 
-RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed, bool usesPatches,
-                                            const std::function<void()>& checkStop) const {
+RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed, bool usesPatches) const {
   const SpectralSampling* const sampling = transport_.prepared().options().sampling;
   Attempt attempted;
   Estimate& answer = attempted.estimate;
@@ -231,7 +227,6 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
   addRound(0, first_);
   addRound(1, first_);
   for (bool goesOn = target_ > 0; goesOn;) {
-    if (checkStop) checkStop();
     if (options_.accuracy > 0 && all.patchesExceed(target_ * valueOf(all.mean()))) {
       attempted.patchesTooNoisy = true;
       answer.reached = false;

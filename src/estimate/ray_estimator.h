@@ -53,26 +53,23 @@ class RayEstimator {
     double relativeError = 0;
     bool reached = true;  // whether this is within the accuracy
   };
-  // Parameters: PathTracer::trace(). The request may have no observer. tracers: of this thread. checkStop is
-  // called between rounds; what it throws is passed on to the caller.
+  // Parameters: PathTracer::trace(). The request may have no observer. tracers: of this thread.
   Estimate estimate(std::vector<PathTracer>& tracers, const V3d& origin, const V3d& direction,
-                    double farthest, uint64_t seed, PathRequest request = {},
-                    const std::function<void()>& checkStop = {}) const;
+                    double farthest, uint64_t seed, PathRequest request = {}) const;
 
   // Traces the ray once, for a set (below kSets), with this number of rays in the gather of its first diffuse
   // surface and a seed of its own. The sets of a half, those below kSets / 2 or the others, have as many rays
   // each.
   using Gather = FunctionRef<TracedRay(size_t set, int rays, uint64_t seed)>;
   // The same for any quantity of the ray: `gather` puts it into TracedRay::value.
-  Estimate estimate(const Gather& gather, uint64_t seed, const std::function<void()>& checkStop) const;
+  Estimate estimate(const Gather& gather, uint64_t seed) const;
 
  private:
   struct Attempt {
     Estimate estimate;
     bool patchesTooNoisy = false;  // for the accuracy, which was given up
   };
-  Attempt attempt(const Gather& gather, uint64_t seed, bool usesPatches,
-                  const std::function<void()>& checkStop) const;
+  Attempt attempt(const Gather& gather, uint64_t seed, bool usesPatches) const;
 
   const Transport& transport_;
   Options options_;

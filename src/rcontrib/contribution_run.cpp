@@ -39,10 +39,9 @@ AnswerOptions pacedByRays(const ContributionOptions& options) {
 // be traced; the rays before it were answered by an earlier run.
 AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers,
                                  const ContributionEstimator* estimator, const ContributionOptions& options,
-                                 double samePlace, uint64_t traced, RunSummary& summary,
-                                 const std::function<void()>& checkStop) {
-  return [&tracers, estimator, &options, samePlace, traced, &summary, checkStop](
-             const Record& record, unsigned worker, std::string& bytes) {
+                                 double samePlace, uint64_t traced, RunSummary& summary) {
+  return [&tracers, estimator, &options, samePlace, traced, &summary](const Record& record, unsigned worker,
+                                                                      std::string& bytes) {
     if (record.bogus || record.index < traced)
       return appendContributions(bytes, ContributionList(tracers[worker].components()));
     const InputRay in = inputRay(record.numbers.data(), options.irradiance, samePlace);
@@ -51,7 +50,7 @@ AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers,
     if (!estimator)
       return appendContributions(bytes, tracers[worker].trace(in.origin, in.direction, farthest, seed));
     const ContributionEstimator::Estimate estimate =
-        estimator->estimate(tracers[worker], in.origin, in.direction, farthest, seed, checkStop);
+        estimator->estimate(tracers[worker], in.origin, in.direction, farthest, seed);
     summary.add(record.index, estimate.sum);
     appendContributions(
         bytes, estimate.means,
@@ -92,12 +91,11 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   };
   bool shortInput = false;
   end.shortInput = [&shortInput] { shortInput = true; };
-  runRecords(
-      reader, sums, paced, messages, &signals,
-      withSensors(answerContributions(tracers, estimator ? &*estimator : nullptr, options, scene.samePlace,
-                                      outputs.recovered() * rays, summary, [&] { signals.check(); }),
-                  options, transport.prepared(), summary),
-      end);
+  runRecords(reader, sums, paced, messages, &signals,
+             withSensors(answerContributions(tracers, estimator ? &*estimator : nullptr, options,
+                                             scene.samePlace, outputs.recovered() * rays, summary),
+                         options, transport.prepared(), summary),
+             end);
   if (sums.end() > 0)
     warn("partial record: the last one is the mean over the rays that are left, fewer than -c");
   outputs.close();

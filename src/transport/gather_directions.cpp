@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/even_sequence.h"
+#include "base/stop_check.h"
 #include "rays/ray_functions.h"
 #include "shade/scattering.h"
 #include "transport/ray_limits.h"
@@ -131,6 +132,7 @@ void sendOverHemisphere(const PreparedScene& prepared, const GatherDirections& d
                         const Coefficient& coefficient, const Coefficient& weight, GatherRay each) {
   const Coefficient arriving = root.context.contribution * passedBy(root);
   directions.draw(set, [&](const V3d& direction, double part) {
+    if (root.context.ambientLevel == 0) StopCheck::here();
     NextRay next(root, kind, weight);
     if (!goesOnAlong(next, prepared, state)) return;
     next.query.origin = point;

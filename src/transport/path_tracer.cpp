@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/stop_check.h"
 #include "rays/ray_functions.h"
 #include "rays/ray_hit.h"
 #include "transport/participating_media.h"
@@ -73,6 +74,7 @@ class PathTracer::Path final : public RayFollower {
         media_(prepared, state_, shading_.light().direct) {}
 
   void begin(uint64_t seed, const V3d& direction, const PathRequest& request = {}) {
+    StopCheck::here();
     state_ = {};
     state_.request = request;
     state_.random = Random(seed);

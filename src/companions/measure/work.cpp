@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 
+#include "base/stop_check.h"
 #include "process/threads.h"
 
 namespace rsphere {
@@ -59,6 +60,9 @@ bool forEachIndex(size_t count, int threads, const StopSignals* signals,
   std::exception_ptr error;
   std::mutex mutex;
   const auto run = [&](unsigned worker) {
+    const StopCheck stopCheck([&] {
+      if (signals != nullptr) signals->check();
+    });
     try {
       while (!stopped) {
         if (signals != nullptr && signals->raised()) {

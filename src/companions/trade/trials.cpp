@@ -20,8 +20,7 @@ const Transport& Trials::transportOf(const Setting& setting) {
 
 Trials::Answerer Trials::points(const Setting& setting, bool standardErrors) {
   const AnswerOptions& options = setting.options;
-  const auto workers = std::make_shared<PointWorkers>(transportOf(setting), options, standardErrors,
-                                                      [this] { signals_.check(); });
+  const auto workers = std::make_shared<PointWorkers>(transportOf(setting), options, standardErrors);
   return [this, workers, &options](size_t i, unsigned worker) {
     const PointAnswer a =
         workers->answer(V3d(points_[3 * i], points_[3 * i + 1], points_[3 * i + 2]), worker);
@@ -41,7 +40,7 @@ Trials::Answerer Trials::rays(const Setting& setting) {
   const AnswerOptions& options = setting.options;
   const auto workers = std::make_shared<Workers>(scene_, options);
   if (options.sphere.accuracy > 0)
-    workers->estimated.emplace(workers->transport, options, [this] { signals_.check(); });
+    workers->estimated.emplace(workers->transport, options);
   else
     workers->tracers = rayTracers(workers->transport, options);
   return [this, workers, &options](size_t i, unsigned worker) {

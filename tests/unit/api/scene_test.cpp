@@ -683,4 +683,18 @@ TEST(Stop, EndsACall) {
   EXPECT_EQ(scene.sphere(std::span(points).first(2), options).size, 2u);
 }
 
+// In the midst of one gather.
+TEST(Stop, EndsARecord) {
+  const Scene scene({kFurnace});
+  const std::vector<rsphere::Ray> ray{{{0, 0, 0}, {0, 0, 1}}};
+  Options options;
+  options.ambientBounces = 3;
+  options.arguments = {"-I", "-ad", "50000000"};
+  options.stop = [asked = 0]() mutable { return ++asked > 1; };
+  EXPECT_EQ(faultOf([&] { scene.trace(ray, options); }, Error::Cause::stopped), "stopped");
+  options.stop = {};
+  options.arguments = {"-I", "-ad", "64"};
+  EXPECT_EQ(scene.trace(ray, options).value.numbers, Scene({kFurnace}).trace(ray, options).value.numbers);
+}
+
 }  // namespace
