@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -103,7 +105,9 @@ struct Finished {
 class Event {
  public:
   Event() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (fd_ < 0) throw rad::Error("cannot create an event descriptor", rad::Status::system);
+    if (fd_ < 0)
+      throw rad::Error(std::string("cannot create an event descriptor: ") + std::strerror(errno),
+                       rad::Status::system);
   }
   ~Event() { close(fd_); }
   Event(const Event&) = delete;

@@ -118,10 +118,10 @@ std::vector<std::string> RunSummary::warnings(const AnswerOptions& options,
   if (far_.records > 0 && !hasSourcesAlone(prepared.scene())) {
     const Box3d& box = prepared.tracer().bounds();
     texts.push_back(fmt::format(
-        "{} of {} {} are far away from the scene, which reaches from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} "
+        "{} of {} {} {} far away from the scene, which reaches from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} "
         "{:.4g}; the first is record {}: check the units of the {}",
-        far_.records, records_, places, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z,
-        far_.worst + 1, places));
+        far_.records, records_, places, far_.records == 1 ? "is" : "are", box.min.x, box.min.y, box.min.z,
+        box.max.x, box.max.y, box.max.z, far_.worst + 1, places));
   }
   if (infinite_.records > 0)
     texts.push_back(fmt::format(

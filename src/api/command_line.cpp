@@ -54,6 +54,12 @@ void refuse(bool given, std::string_view option, std::string_view reason) {
   if (given) throw rad::Error(fmt::format("option '{}': {}", option, reason));
 }
 
+// Why a word might be taken for a value; empty unless it follows an option.
+std::string afterOption(const std::string& word, std::span<const std::string> words) {
+  const std::string& before = *(std::ranges::find(words, word) - 1);
+  return before.starts_with('-') ? fmt::format(", and {} takes no value", before) : "";
+}
+
 // Whether an option only affects threads or output.
 bool isOfOutput(const OptionEntry& entry) {
   static constexpr std::array<std::string_view, 7> kNames = {"-n", "-o", "-h", "-x", "-y", "-t", "-w"};
@@ -100,7 +106,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
     throw rad::Error(
         "-help, -version, -defaults and -features are for the command rsphere, not for the library");
   if (parsed.scene.size() > 1)
-    throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen", parsed.scene[0]));
+    throw rad::Error(fmt::format("\"{}\" is not an option: options begin with a hyphen{}", parsed.scene[0],
+                                 afterOption(parsed.scene[0], words.words())));
   refuse(parsed.sphereMode == rays, "-S", "trace() and contributions() answer rays, and sphere() points");
   refuse(parsed.sphere.glare.wanted != glare, "-Su", "glare() answers eyes, and sphere() points");
   refuse(!parsed.goals.empty(), "-Sg",
@@ -109,7 +116,8 @@ CommandOptions commandOptions(const Options& options, Records records) {
   refuse(!parsed.commands, "-Sc", "commands belong to the scene: see SceneOptions");
   refuse(parsed.sphere.everyDirection, "-Sd", "only the command rsphere lists every direction");
   refuse(parsed.listSpecial, "-Sl", "only the command rsphere lists the special objects");
-  refuse(!parsed.treeOutputs.empty(), "-ot", "only the command rsphere writes ray trees");
+  refuse(!parsed.treeOutputs.empty() || (rays && options.outputs.find_first_of("tT") != std::string::npos),
+         "-ot", "only the command rsphere writes ray trees");
   if (records == Records::contributions) {
     limitToContributions(parsed.ray);
     refuse(parsed.color.space != ColorSpace::rgb && parsed.color.space != ColorSpace::spectrum, "-p",

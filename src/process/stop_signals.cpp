@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <ctime>
 
 #include "rad_parser/printable.h"
@@ -94,7 +95,8 @@ void onSignal(int number) {
 StopSignals::StopSignals(const std::string& program) {
   occupyStandardDescriptors();
   if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
-    throw rad::Error("cannot create a pipe for signals", rad::Status::system);
+    throw rad::Error(std::string("cannot create a pipe for signals: ") + std::strerror(errno),
+                     rad::Status::system);
   state.raised = 0;
   state.raisedAt = 0;
   state.deferred = false;

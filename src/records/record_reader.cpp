@@ -126,8 +126,12 @@ void RecordReader::newLine() {
 
 void RecordReader::malformed(std::string_view word) const {
   if (records_ == 0 && rad::isUtf16(word)) throw rad::Error(fmt::format("{}: {}", name_, rad::kUtf16));
-  throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"", name_, line_, perRecord_,
-                               counted(perRecord_), rad::printable(word, kShownWord)));
+  double number = 0;
+  const bool huge =
+      rad::readReal(word.data(), word.data() + word.size(), number).ec == std::errc::result_out_of_range;
+  throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"{}", name_, line_, perRecord_,
+                               counted(perRecord_), rad::printable(word, kShownWord),
+                               huge ? ", beyond the range of numbers" : ""));
 }
 
 // A fast path for most text after the first line: reads records in the block up to the first that does not

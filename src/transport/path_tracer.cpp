@@ -45,8 +45,8 @@ void checkDepth(const PathContext& ray) {
     throw rad::Error(fmt::format("a ray goes through more than {} surfaces one after the other", kDeepest));
   if (reinterpret_cast<uintptr_t>(__builtin_frame_address(0)) < stackEnd() + kStackReserve)
     throw rad::Error(
-        fmt::format("a ray goes through {} surfaces one after the other: more than the thread's stack "
-                    "has room for",
+        fmt::format("a ray goes through {} surfaces one after the other, and the stack of its thread is "
+                    "full: allow a larger one (ulimit -s)",
                     ray.depth),
         rad::Status::system);
 }

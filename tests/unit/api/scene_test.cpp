@@ -369,6 +369,8 @@ TEST(Error, OfOptions) {
   EXPECT_EQ(fault({"-ab", "x"}).find("command line error at '-ab': \"x\" is not a whole number"), 0u);
   EXPECT_EQ(fault({"-zz"}).find("command line error at '-zz'"), 0u);
   EXPECT_EQ(fault({"room.rad"}), "\"room.rad\" is not an option: options begin with a hyphen");
+  EXPECT_EQ(fault({"-bv", "7"}),
+            "\"7\" is not an option: options begin with a hyphen, and -bv takes no value");
   for (const std::string option : {"-S", "-Sd", "-Sl", "-Sc"})
     EXPECT_EQ(fault({option}).find("option '" + option + "': "), 0u) << fault({option});
   EXPECT_EQ(fault({"-Sg", "goal"}).find("option '-Sg': "), 0u);
@@ -376,6 +378,8 @@ TEST(Error, OfOptions) {
   EXPECT_EQ(fault({"-ov"}), "no fault");
   Options trees;
   trees.outputs = "v~tW";
+  EXPECT_EQ(faultOf([&] { scene.trace({}, trees); }).find("option '-ot': "), 0u);
+  trees.outputs = "vt";
   EXPECT_EQ(faultOf([&] { scene.trace({}, trees); }).find("option '-ot': "), 0u);
 }
 
