@@ -174,8 +174,7 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
   for (size_t i = straight; i < images.size(); ++i) images[i].rays *= mirrorFactor;
   double sum = 0;
   for (const Image& image : images) sum += image.rays;
-  for (size_t i = 0; i < images.size(); ++i) {
-    Image& image = images[i];
+  for (Image& image : images) {
     const double enough = isSensor(prepared_, image.source)
                               ? 1
                               : std::max({tuning::SeenSources::kUsualRays,
@@ -183,11 +182,14 @@ std::vector<SeenSources::Image> SeenSources::findImages(const V3d& point, size_t
                                           tuning::SeenSources::kSmallShare * static_cast<double>(most) /
                                               static_cast<double>(images.size())});
     image.rays = std::min(image.rays / sum * static_cast<double>(most), enough);
-    if (i < straight && straight <= most) image.rays = std::max(image.rays, 1.);
   }
   images.erase(std::remove_if(images.begin() + straight, images.end(),
                               [](const Image& i) { return i.rays < tuning::SeenSources::kSmallShare; }),
                images.end());
+  // A ray shows the whole light of its direction, such as the sky behind a pane that mirrors a lamp. That is
+  // much more than the light of the image if one ray in ten points has ten times the weight.
+  const size_t sure = images.size() <= most ? images.size() : straight <= most ? straight : 0;
+  for (size_t i = 0; i < sure; ++i) images[i].rays = std::max(images[i].rays, 1.);
   return images;
 }
 

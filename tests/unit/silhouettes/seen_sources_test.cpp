@@ -111,6 +111,19 @@ TEST(SeenSources, SunAndItsImageInAPane) {
   EXPECT_NEAR(setting.apart(point) / exact, 1, 1e-4);
 }
 
+// A direction to the faint image of a lamp in a pane also shows what is behind the pane. Where one point in
+// five has such a direction, with five times the weight, the bright surroundings are as noisy.
+TEST(SeenSources, FaintImageBeforeBrightSurroundings) {
+  const Setting setting(
+      "void glow sky 0 0 4 30 30 30 0\nsky bubble around 0 0 4 0 0 0 50\n"
+      "void light sun 0 0 3 2e7 2e7 2e7\nsun source s 0 0 4 1 1 1 .5\n"
+      "pane polygon p 0 0 12 0 -9 -9 0 9 -9 0 9 9 0 -9 9\n"
+      "lamp polygon l 0 0 12 2 -.2 1.5 2 .2 1.5 3.2 .2 1.5 3.2 -.2 1.5\n");
+  Sample answers;
+  for (uint64_t k = 0; k < 32; ++k) answers.add(setting.apart(V3d(.3, 0, 0), 2048, k));
+  EXPECT_LT(answers.standardError() / answers.mean(), 1.5e-5);
+}
+
 TEST(SeenSources, SolidAnglesSumToTheSphere) {
   const Setting setting(std::string(kWall) +
                         "lamp sphere l 0 0 4 1 1 0 .1\nlamp ring r 0 0 8 2 0 2 1 1 -1 0 .5\n"
