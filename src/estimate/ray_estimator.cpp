@@ -9,6 +9,7 @@
 #include "estimate/tuning.h"
 #include "points/error_estimate.h"
 #include "targets/contrasts.h"
+#include "transport/final_gather.h"
 #include "transport/tuning.h"
 
 namespace rsphere {
@@ -153,7 +154,7 @@ RayEstimator::RayEstimator(const Transport& transport, const Options& options)
   if (prepared.irradiance() != IrradianceAt::point || o.ambientSuperSamples == 0) return;
   // As without -oe, the gather of a sensor gets more rays where it is noisy.
   target_ = o.ambientAccuracy / tuning::SensorNoise::kAccuracy;
-  most_ = (asked + tuning::SensorNoise::kMostAdded * o.ambientSuperSamples) / static_cast<double>(kSets);
+  most_ = (asked + mostAddedAtSensors(o)) / static_cast<double>(kSets);
 }
 
 // Rays do not reduce the noise of patches, which therefore has to be below the accuracy.

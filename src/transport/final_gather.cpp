@@ -40,6 +40,10 @@ int raysOfRecord(const RayOptions& o, LitBy by) {
   return static_cast<int>(std::clamp<double>(enough, (all + part - 1) / part, all));
 }
 
+double mostAddedAtSensors(const RayOptions& options) {
+  return tuning::SensorNoise::kMostAdded * std::min(options.ambientSuperSamples, options.ambientDivisions);
+}
+
 GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, uint64_t seed) {
   const InnerPath path = path_.beginGather(seed, site.normal);
   const Root root(t_, site, depth_);

@@ -165,8 +165,7 @@ void gatherAccurately(const Gather& from, int rays, Radiance& value) {
   for (const int k : {0, 1}) {
     Half& half = halves[k];
     const double ratio = halves[1 - k].noise.ofWhole() / allowed;
-    const double asked =
-        std::min((ratio * ratio - 1) * ofHalf, tuning::SensorNoise::kMostAdded * o.ambientSuperSamples / 2);
+    const double asked = std::min((ratio * ratio - 1) * ofHalf, mostAddedAtSensors(o) / 2);
     if (!(asked >= ofHalf / tuning::SensorNoise::kFewestAdded)) continue;  // also if it is not a number
     half.added = static_cast<int>(asked);
     half.share = ofHalf / static_cast<double>(ofHalf + half.added);

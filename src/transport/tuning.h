@@ -23,10 +23,10 @@ struct GatherDirections {
 // Rays that a sensor (-I) adds where its gather is noisy (indirect_light.cpp).
 struct SensorNoise {
   // Rays are added until the standard error of the gather is at most -aa divided by kAccuracy, or until
-  // kMostAdded times -as are added. Measured in six daylit rooms: with 20 and 12 instead of 30, sensors have
-  // 1.06 and 1.2 times the error for equal times, because patches take most of the time
-  // (2026-11-29-sensors.txt). kMostAdded: with 8, sensors below a shaft have an error of 2.3% in .36 s
-  // (-as 512); with 24, 1.3% in .44 s (2026-11-27-patches.txt).
+  // kMostAdded times -as, or -ad if that is smaller, are added. Measured in six daylit rooms: with 20 and 12
+  // instead of 30, sensors have 1.06 and 1.2 times the error for equal times, because patches take most of
+  // the time (2026-11-29-sensors.txt). kMostAdded: with 8, sensors below a shaft have an error of 2.3% in
+  // .36 s (-as 512); with 24, 1.3% in .44 s (2026-11-27-patches.txt).
   static constexpr double kAccuracy = 30, kMostAdded = 24;
   // If the rays to be added are fewer than those already sent divided by this, none are added, because so few
   // would be unevenly distributed over the hemisphere.

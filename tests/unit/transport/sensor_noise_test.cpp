@@ -51,6 +51,13 @@ TEST(SensorNoise, AddedRaysReduceTheNoise) {
   EXPECT_LT(with.standardError(), .7 * without.standardError());
 }
 
+// 384 rays each, and at most 24 times 8 or 192 more.
+TEST(SensorNoise, FewDivisionsRemainADraft) {
+  const Sample draft = illuminances(interpolated(8, 376), 500),
+               fine = illuminances(interpolated(192, 192), 500);
+  EXPECT_GT(draft.standardError(), 1.4 * fine.standardError());
+}
+
 // The error that is allowed grows with -aa: with -aa 15 it is 125%.
 TEST(SensorNoise, NoRaysAreAddedWhereItIsAllowed) {
   RayOptions coarse = interpolated(48, 16);
