@@ -31,12 +31,6 @@ uint64_t seedOf(const SetAtPoint& set, Stream stream, uint64_t number = 0) {
   return mixBits(set.seed() + static_cast<uint64_t>(stream) + number);
 }
 
-double solidAngleOf(std::span<const SeenSources::Sample> samples) {
-  double sum = 0;
-  for (const SeenSources::Sample& s : samples) sum += s.direction.solidAngle;
-  return sum;
-}
-
 // beside: number of directions that -Sx allows in addition to the base directions.
 size_t raysToImages(size_t base, size_t beside, bool glances) {
   const size_t usual = std::max(base / tuning::SilhouetteWeights::kBaseDirectionsPerRayToImages,
@@ -135,7 +129,9 @@ SilhouetteWeights::Plan SilhouetteWeights::planFor(const SetAtPoint& set, const 
   const size_t base = base_.directions.size(), used = base + toImages.size();
   const size_t most = static_cast<size_t>(options_.mostDirections), left = most > used ? most - used : 0;
   if (targets_) plan.targets = targets_->at(set.point(), view.meanBrightness, base, left);
-  plan.solidAngle = std::max(0., 4 * pi - solidAngleOf(toImages));
+  plan.apart.resize(plan.targets.all().size() + 1);
+  for (const SeenSources::Sample& s : toImages)
+    plan.apart[plan.targets.regionAt(s.direction.direction).fitted] += s.direction.solidAngle;
   chooseDirections(set, plan);
   return plan;
 }
@@ -188,7 +184,7 @@ SampledSet SilhouetteWeights::traced(const SetAtPoint& set, const View& view, co
     sampled.samples.push_back(sample);
     if (options_.everyDirection) sampled.rays.push_back(ray);
   }
-  const std::vector<double> solidAngles = cellsInTargets(std::move(cells), plan.targets, plan.solidAngle);
+  const std::vector<double> solidAngles = cellsInTargets(std::move(cells), plan.targets, plan.apart);
   for (size_t i = 0; i < solidAngles.size(); ++i) sampled.samples[i].solidAngle = solidAngles[i];
   return sampled;
 }

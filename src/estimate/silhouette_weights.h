@@ -60,7 +60,7 @@ class SilhouetteWeights : public SamplingStrategy {
       std::optional<Imath::V2d> shift{};  // of evenly(); empty for several parts of an image
     };
     std::vector<Run> runs;
-    double solidAngle = 0;  // total of these directions, sr
+    std::vector<double> apart;  // solid angle of the images of sources, as for cellsInTargets()
   };
   Plan planFor(const SetAtPoint& set, const View& view, std::span<const SeenSources::Sample> toImages) const;
   // Sets directions and runs.

@@ -1,16 +1,22 @@
 #include "targets/cells_in_targets.h"
 
+#include <algorithm>
+#include <numeric>
+
+#include "base/constants.h"
 #include "targets/tuning.h"
 
 namespace rsphere {
 namespace {
 
-void fit(std::vector<CellInTarget>& cells, const Targets& targets) {
+void fit(std::vector<CellInTarget>& cells, const Targets& targets, std::span<const double> apart) {
   std::vector<double> factors(targets.all().size() + 1);
-  for (const CellInTarget& cell : cells) factors[cell.fitted] += cell.solidAngle;
+  for (const CellInTarget& cell : cells)
+    if (cell.enters) factors[cell.fitted] += cell.solidAngle;
   factors[0] = 1;
   for (size_t i = 1; i < factors.size(); ++i)
-    if (factors[i] > 0) factors[i] = targets.all()[i - 1].silhouette.regionSolidAngle() / factors[i];
+    if (factors[i] > 0)
+      factors[i] = std::max(0., targets.all()[i - 1].silhouette.regionSolidAngle() - apart[i]) / factors[i];
   for (CellInTarget& cell : cells) cell.solidAngle *= factors[cell.fitted];
 }
 
@@ -32,9 +38,10 @@ void scale(std::vector<CellInTarget>& cells, double total) {
 
 }  // namespace
 
-std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets, double total) {
-  fit(cells, targets);
-  scale(cells, total);
+std::vector<double> cellsInTargets(std::vector<CellInTarget> cells, const Targets& targets,
+                                   std::span<const double> apart) {
+  fit(cells, targets, apart);
+  scale(cells, std::max(0., 4 * kPi - std::accumulate(apart.begin(), apart.end(), 0.)));
   std::vector<double> solidAngles;
   solidAngles.reserve(cells.size());
   for (const CellInTarget& cell : cells) solidAngles.push_back(cell.enters ? cell.solidAngle : 0);
