@@ -30,9 +30,11 @@ struct SumOfSome {
   SumOfSome without(const Radiance& value) const { return {sum - value, count - 1}; }
 };
 
-// values: of the samples. Each is compared with its neighbours in its own region. If it has none there, like
-// a direction that sees the wall between two windows, it is compared with all other values of its region; if
-// it is alone in its region, with all neighbours except those in kNoRegion.
+// values: of the samples. Each is compared with its neighbours; the mean of its own region takes the place of
+// those in others. Cells end at the edge of a region and add up to its solid angle, so that only what differs
+// from the mean is uncertain there. If it has no neighbour in its region, like a direction that sees the wall
+// between two windows, it is compared with all other values of its region; if it is alone in its region, with
+// all neighbours except those in kNoRegion.
 Differences differences(std::span<const Radiance> values, std::span<const DirectionSample> samples,
                         const Neighbours& n) {
   const auto regionOf = [&](size_t i) { return samples[i].region; };
@@ -48,8 +50,10 @@ Differences differences(std::span<const Radiance> values, std::span<const Direct
       near.add(values[other]);
       if (regionOf(other) == regionOf(i)) nearInRegion.add(values[other]);
     }
-    SumOfSome around = nearInRegion;
-    if (around.count == 0) around = regions[regionOf(i)].without(values[i]);
+    const SumOfSome& region = regions[regionOf(i)];
+    SumOfSome around = near;
+    around.sum = nearInRegion.sum + region.sum * ((near.count - nearInRegion.count) / region.count);
+    if (nearInRegion.count == 0) around = region.without(values[i]);
     if (around.count == 0) around = near;
     result.around[i] = around.count;
     if (around.count > 0) result.values[i] = values[i] - around.sum / around.count;

@@ -84,8 +84,9 @@ struct Neighbours {
 // not smooth variation, which an even set integrates accurately. An even set also averages out part of the
 // error at edges, hence the factor tuning::ErrorEstimate::kEvenSet. In regions other than 0, the factor is 1
 // for directions with few neighbours, because a single one may find much light there, such as a lamp mirrored
-// in a chrome column. Only neighbours in one region are compared, if there are any: the edge of a region adds
-// no error, because cells end there. Directions in kNoRegion are left out.
+// in a chrome column. The mean of a region takes the place of neighbours in other regions: cells end at the
+// edge of a region and add up to its solid angle, so that there only what differs from the mean is uncertain.
+// Directions in kNoRegion are left out.
 Variance evenVariance(std::span<const DirectionSample> samples, const Neighbours& neighbours,
                       const SpectralSampling* sampling, KernelVariances* to = nullptr);
 

@@ -212,6 +212,17 @@ TEST(ErrorEstimate, EdgesOfRegionsAreNoErrors) {
 
 // Six directions in a row. The fourth sees the wall between two windows, which is as bright as elsewhere, or
 // a spot on it. Compared with the windows, its difference would be -8.
+// Cells in a region add up to its solid angle. At its edge, light is uncertain as far as it differs from the
+// mean of the region, as at an edge beside that mean. It counts a third, because it is seen from inside only.
+TEST(ErrorEstimate, LightThatDiffersAtTheEdgeOfARegionIsAnError) {
+  const auto valueAt = [](size_t x) { return x < 8 ? static_cast<double>(x) : 0; };
+  constexpr double kMean = 3.5;
+  const Torus beside(16, [&](size_t x, size_t) { return x < 8 ? valueAt(x) - kMean : 0; });
+  Torus region(16, [&](size_t x, size_t) { return valueAt(x); });
+  for (size_t i = 0; i < region.samples.size(); ++i) region.samples[i].region = i % 16 < 8 ? 1 : 2;
+  EXPECT_NEAR(region.variance() / beside.variance(), 1. / 3, .05);
+}
+
 TEST(ErrorEstimate, WallsBetweenWindowsAreComparedWithOtherWalls) {
   const Neighbours row{{0, 1, 3, 5, 7, 9, 10}, {1, 0, 2, 1, 3, 2, 4, 3, 5, 4}};
   const auto varianceWith = [&](double between) {
@@ -224,7 +235,8 @@ TEST(ErrorEstimate, WallsBetweenWindowsAreComparedWithOtherWalls) {
   const double alone = std::pow(9 - 1, 2) * 2. / 3;
   EXPECT_NEAR(varianceWith(1), alone, 1e-12);
   const double even = tuning::ErrorEstimate::kEvenSet;
-  EXPECT_NEAR(varianceWith(4), std::pow(9 - 2.5, 2) * 2. / 3 + even * 9 * 2 / 3, 1e-12);
+  // The second direction is compared with the first and, in place of the window, with the walls' mean of 2.
+  EXPECT_NEAR(varianceWith(4), std::pow(9 - 2.5, 2) * 2. / 3 + even * (9 + .25) * 2 / 3, 1e-12);
 }
 
 // One direction that was sent to a window, beside base directions of which two see it.
