@@ -492,7 +492,7 @@ constexpr OptionEntry kOptions[] = {
     // Options for examining how answers were obtained.
     {{"-Si", "pic", "picture of the view from each point", Group::sphere, of<&O::picture>},
      pointsOnly("for pictures of rays, use -fac with -x and -y")},
-    {{"-Siw", "N", "width of pictures; 0: 1024, of fisheyes 800", Group::sphere,
+    {{"-Siw", "N", "width of pictures; 0: 1024, or 800 (fisheyes)", Group::sphere,
       +[](O& o) -> int& { return o.pictureForm.width; }, Range{0, 16384}, "pixels"},
      pointsOnly()},
     {{"-Siv", "vh", "horizontal angle of pictures in perspective; 0: all directions", Group::sphere,

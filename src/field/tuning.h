@@ -147,7 +147,7 @@ struct CoarseSolution {
   static constexpr double kFewestForSlopes = 32;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
-  // The same by daylight where there are several solutions, whose light is averaged: one ray from each site.
+  // kLeastRays by daylight if there are several solutions, whose light is averaged: one ray from each site.
   // Measured: with 8, sensors in a sunlit classroom at -Sa .01 take 1.4 times the time for the same error
   // (2026-11-29-sensors.txt).
   static constexpr double kLeastRaysOfSolutions = 4;

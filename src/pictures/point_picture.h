@@ -85,7 +85,8 @@ class ToneCurve {
   // white: in W/sr/m2.
   ToneCurve(const Raster& raster, const PixelMap& map, double white);
   V3d shown(const V3d& radiance) const;
-  // The radiance that is shown like this; the brightest one where that is white.
+  // The inverse of shown(): the least radiance, by channel, that has this color. Where a channel
+  // is 1, brighter radiance has it, too.
   V3d radiance(const V3d& shown) const;
 
  private:

@@ -46,9 +46,9 @@ struct ErrorEstimate {
 // Light in zones (moments.cpp).
 struct Moments {
   // If a zone gets a share of a cell, its variance is this factor times share (1 - share) times the squared
-  // light of the cell. The factor is not 0, because the division of the cell is approximate: the cell is
-  // represented by a few points of a disk. Measured where radiance is even. It is 1 for cells in which the
-  // direction may be anywhere.
+  // light of the cell. It is for directions in the middle of their cells; where a direction may be anywhere
+  // in its cell, the factor is 1. It is not 0, because the cell is divided approximately, by a few points of
+  // a disk. Measured where radiance is even.
   static constexpr double kBorder = .05;
 };
 

@@ -438,7 +438,9 @@ class Means {
   int rank_ = 0, given_ = 0;
   bool drawFirst_ = false;
   std::vector<Node> nodes_{1};
-  std::vector<uint32_t> roots_;  // by branch of the tree: (its first child - 1) / 2^rank
+  // Nodes for the branches of the tree, whose children are groups of 2^rank. A branch with the first child c
+  // has the index (c - 1) / 2^rank.
+  std::vector<uint32_t> roots_;
 };
 
 class TreeScattering final : public DirectedScattering {
