@@ -348,25 +348,22 @@ std::vector<Column> columnsOf(RayAnswers& a) {
 }
 
 std::vector<Column> columnsOf(PointAnswers& a) {
-  return {{'v', &a.mean},
-          {'e', &a.meanStandardError, nullptr, 'v'},
-          {'e', &a.scalarIrradianceStandardError, nullptr, 'E'},
-          {'e', &a.cylindricalIrradianceStandardError, nullptr, 'C'},
-          {'e', &a.semicylindricalIrradianceStandardError, nullptr, 'S'},
-          {'e', &a.hemisphericalIrradianceStandardError, nullptr, 'h'},
-          {'e', &a.faceIrradianceStandardError, nullptr, 'H'},
-          {'e', &a.lightVectorStandardError, nullptr, 'u'},
-          {'E', &a.scalarIrradiance},
-          {'C', &a.cylindricalIrradiance},
-          {'S', &a.semicylindricalIrradiance},
-          {'h', &a.hemisphericalIrradiance},
-          {'H', &a.faceIrradiance},
-          {'u', &a.lightVector},
-          {'k', &a.directions},
-          {'z', &a.zones},
-          {'e', &a.zonesStandardError, nullptr, 'z'},
-          {'Z', &a.zonesStandardError, nullptr, 'z'},
-          {'o', &a.point}};
+  std::vector<Column> columns{
+      {'k', &a.directions}, {'Z', &a.zonesStandardError, nullptr, 'z'}, {'o', &a.point}};
+  // A quantity and its standard error, the letter e after it.
+  const auto add = [&](char letter, Quantity& value, Quantity& error) {
+    columns.push_back({letter, &value});
+    columns.push_back({'e', &error, nullptr, letter});
+  };
+  add('v', a.mean, a.meanStandardError);
+  add('E', a.scalarIrradiance, a.scalarIrradianceStandardError);
+  add('C', a.cylindricalIrradiance, a.cylindricalIrradianceStandardError);
+  add('S', a.semicylindricalIrradiance, a.semicylindricalIrradianceStandardError);
+  add('h', a.hemisphericalIrradiance, a.hemisphericalIrradianceStandardError);
+  add('H', a.faceIrradiance, a.faceIrradianceStandardError);
+  add('u', a.lightVector, a.lightVectorStandardError);
+  add('z', a.zones, a.zonesStandardError);
+  return columns;
 }
 
 std::vector<Column> columnsOf(GlareAnswers& a) {

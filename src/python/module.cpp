@@ -174,25 +174,19 @@ py::object arraysOf(PointAnswers&& a) {
   const size_t parts = a.contributors.size();
   py::dict arrays;
   arrays["contributors"] = parts > 0 ? py::object(py::cast(a.contributors)) : py::none();
-  arrays["mean"] = arrayOf(std::move(a.mean), a.size, {parts});
-  arrays["mean_standard_error"] = arrayOf(std::move(a.meanStandardError), a.size, {parts});
-  arrays["scalar_irradiance"] = arrayOf(std::move(a.scalarIrradiance), a.size, {parts});
-  arrays["cylindrical_irradiance"] = arrayOf(std::move(a.cylindricalIrradiance), a.size, {parts});
-  arrays["semicylindrical_irradiance"] = arrayOf(std::move(a.semicylindricalIrradiance), a.size, {parts});
-  arrays["hemispherical_irradiance"] = arrayOf(std::move(a.hemisphericalIrradiance), a.size, {parts});
-  arrays["face_irradiance"] = arrayOf(std::move(a.faceIrradiance), a.size, {parts, 6});
-  arrays["light_vector"] = arrayOf(std::move(a.lightVector), a.size, {parts});
-  const std::pair<const char*, Quantity*> errors[] = {
-      {"scalar_irradiance_standard_error", &a.scalarIrradianceStandardError},
-      {"cylindrical_irradiance_standard_error", &a.cylindricalIrradianceStandardError},
-      {"semicylindrical_irradiance_standard_error", &a.semicylindricalIrradianceStandardError},
-      {"hemispherical_irradiance_standard_error", &a.hemisphericalIrradianceStandardError},
-      {"light_vector_standard_error", &a.lightVectorStandardError}};
-  for (const auto& [name, quantity] : errors) arrays[name] = arrayOf(std::move(*quantity), a.size, {parts});
-  arrays["face_irradiance_standard_error"] =
-      arrayOf(std::move(a.faceIrradianceStandardError), a.size, {parts, 6});
-  arrays["bins"] = arrayOf(std::move(a.zones), a.size, {parts, a.zoneCount});
-  arrays["bins_standard_error"] = arrayOf(std::move(a.zonesStandardError), a.size, {parts, a.zoneCount});
+  // A quantity and its standard error, with as many colors for each contributor; 0: one.
+  const auto add = [&](const std::string& name, Quantity& value, Quantity& error, size_t colors = 0) {
+    arrays[name.c_str()] = arrayOf(std::move(value), a.size, {parts, colors});
+    arrays[(name + "_standard_error").c_str()] = arrayOf(std::move(error), a.size, {parts, colors});
+  };
+  add("mean", a.mean, a.meanStandardError);
+  add("scalar_irradiance", a.scalarIrradiance, a.scalarIrradianceStandardError);
+  add("cylindrical_irradiance", a.cylindricalIrradiance, a.cylindricalIrradianceStandardError);
+  add("semicylindrical_irradiance", a.semicylindricalIrradiance, a.semicylindricalIrradianceStandardError);
+  add("hemispherical_irradiance", a.hemisphericalIrradiance, a.hemisphericalIrradianceStandardError);
+  add("face_irradiance", a.faceIrradiance, a.faceIrradianceStandardError, 6);
+  add("light_vector", a.lightVector, a.lightVectorStandardError);
+  add("bins", a.zones, a.zonesStandardError, a.zoneCount);
   arrays["bins_solid_angle"] =
       a.zoneCount > 0 ? py::object(py::array_t<double>(py::ssize_t(a.zoneCount), a.zoneSolidAngles.data()))
                       : py::none();
