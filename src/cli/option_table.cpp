@@ -88,14 +88,11 @@ void setThreads(Options& options, const OptionEntry& entry, OwnWords words, std:
 }
 
 void setWeights(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
-  if (words[0] == "h")
-    options.sphere.weights = Weights::homogeneous;
-  else if (words[0] == "v")
-    options.sphere.weights = Weights::voronoi;
-  else if (words[0] == "c")
-    options.sphere.weights = Weights::silhouettes;
-  else
-    commandLineError(entry.name, fmt::format("\"{}\" is not h, v or c", words[0]));
+  const size_t i = words[0].size() == 1 ? kWeightsLetters.find(words[0][0]) : kWeightsLetters.npos;
+  if (i == kWeightsLetters.npos)
+    commandLineError(entry.name,
+                     fmt::format("\"{}\" is not one of {}", words[0], fmt::join(kWeightsLetters, ", ")));
+  options.sphere.weights = static_cast<Weights>(i);
 }
 
 void setRotation(Options& options, const OptionEntry& entry, OwnWords words, std::string_view) {
@@ -264,8 +261,7 @@ std::string wavelengthsLine(const Options& o) {
 std::string immediateLine(const Options& o) { return o.irradianceAtPoint ? "-I+\t\t\t\t" : ""; }
 
 std::string weightsLine(const Options& o) {
-  constexpr std::string_view kLetters = "hvc";
-  return fmt::format("-Sw {}\t\t\t\t", kLetters[static_cast<size_t>(o.sphere.weights)]);
+  return fmt::format("-Sw {}\t\t\t\t", kWeightsLetters[static_cast<size_t>(o.sphere.weights)]);
 }
 
 using O = Options;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "base/constants.h"
 #include "points/kernels.h"
@@ -24,8 +25,9 @@ struct GlareOptions {
   bool isFixed() const { return threshold > kFixed; }
 };
 
-// How the directions of a point are weighted.
-enum class Weights : uint8_t { homogeneous /* h */, voronoi /* v */, silhouettes /* c */ };
+// How the directions of a point are weighted, and the letters of -Sw in their order.
+enum class Weights : uint8_t { homogeneous, voronoi, silhouettes };
+inline constexpr std::string_view kWeightsLetters = "hvc";
 
 // The options of the estimator of sphere mode.
 struct SphereOptions {

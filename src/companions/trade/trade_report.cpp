@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "companions/report/page.h"
 #include "companions/report/plot.h"
+#include "points/sphere_options.h"
 
 namespace rsphere {
 namespace {
@@ -30,18 +31,21 @@ constexpr double kDishonest = 1.5;  // ratio from which the estimate is regarded
 struct Series {
   std::string_view name, color;
 };
+// Settings with each letter of -Sw, and two others.
 constexpr Series kSeries[] = {{"equal weights (-Sw h)", "#888888"},
                               {"the paper's cells (-Sw v)", "#d95f02"},
                               {"cells within silhouettes (-Sw c)", "#1b6fb3"},
                               {"until an accuracy (-Sa)", "#1a9850"},
                               {"rays, as -ad and -as say", "#7570b3"}};
 
+constexpr size_t kWeightings = kWeightsLetters.size();
+static_assert(std::size(kSeries) == kWeightings + 2, "each letter of -Sw needs a name and a color");
+
 size_t seriesOf(const Figures& f, bool rays) {
-  if (std::ranges::find(f.words, "-Sa") != f.words.end()) return 3;
-  if (rays) return 4;
+  if (std::ranges::find(f.words, "-Sa") != f.words.end()) return kWeightings;
+  if (rays) return kWeightings + 1;
   const auto weights = std::ranges::find(f.words, "-Sw");
-  if (weights == f.words.end() || weights + 1 == f.words.end()) return 2;
-  return weights[1] == "h" ? 0 : weights[1] == "v" ? 1 : 2;
+  return kWeightsLetters.find(weights == f.words.end() ? 'c' : weights[1][0]);
 }
 
 constexpr std::string_view kRing = "#c2185b", kDashes = "stroke-width=\"2\" stroke-dasharray=\"4 3\"",

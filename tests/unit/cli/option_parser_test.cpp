@@ -313,7 +313,7 @@ TEST(ParseOptions, Words) {
   EXPECT_EQ(options.messages.errorFile, "err");
   EXPECT_EQ(options.ray.ambientFile, "x.amb");
   EXPECT_EQ(faultOfOptions({"rsphere", "-Sw", "x", "s.oct"}),
-            "command line error at '-Sw': \"x\" is not h, v or c; see -help");
+            "command line error at '-Sw': \"x\" is not one of h, v, c; see -help");
   EXPECT_EQ(beginningOfFault({"rsphere", "-Sr", "-1", "s.oct"}), "command line error at '-Sr'");
   for (const char* number : {"nan", "-nan", "inf", "1e999"}) {
     EXPECT_EQ(beginningOfFault({"rsphere", "-lw", number, "s.oct"}), "command line error at '-lw'");
