@@ -187,8 +187,7 @@ GlareEstimator::GlareEstimator(const Transport& transport, const SphereOptions& 
     : prepared_(transport.prepared()),
       options_(withDirections(options)),
       means_(transport, options_),
-      separates_(isBlack(prepared_.options().medium().extinction) &&
-                 prepared_.lights().ofMists().all().empty()) {}
+      separates_(!hasMedia(prepared_)) {}
 
 double GlareEstimator::luminance(const Radiance& radiance) const {
   return kPhotopicEfficacy * photopicOf(radiance.color, prepared_.options().sampling);

@@ -43,14 +43,11 @@ int panesBefore(const RayEnd& end, const Scene& scene) {
 
 }  // namespace
 
-// Components are not separated in a participating medium, because the observer sees them before the medium
-// attenuates them.
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
     : point_(point),
       prepared_(transport.prepared()),
       tracer_(transport.pathTracer({FirstBounce::gathered})),
-      separates_(isBlack(prepared_.options().medium().extinction) &&
-                 prepared_.lights().ofMists().all().empty()) {}
+      separates_(!hasMedia(prepared_)) {}
 
 PixelSample PixelTracer::trace(const V3d& direction, uint64_t seed, PixelParts parts) {
   if (!separates_) parts = PixelParts::all;

@@ -58,6 +58,10 @@ bool lacksSources(const PreparedScene& prepared) {
          !(prepared.options().ambientBounces > 0 && glows(scene, scene.outermost()));
 }
 
+bool hasMedia(const PreparedScene& prepared) {
+  return !isBlack(prepared.options().medium().extinction) || !prepared.lights().ofMists().all().empty();
+}
+
 bool isLitByLamps(const PreparedScene& prepared) {
   for (const LightSource& light : prepared.lights().all())
     if (light.isDistant()) return false;

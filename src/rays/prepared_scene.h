@@ -65,4 +65,8 @@ bool lacksSources(const PreparedScene& prepared);
 // Whether shadow rays find all light. Daylight and glowing surfaces are found by indirect rays only.
 bool isLitByLamps(const PreparedScene& prepared);
 
+// Whether a participating medium (-me) or a volume of mist attenuates light. The parts of a ray's light
+// cannot be separated there, because observers see them before they are attenuated.
+bool hasMedia(const PreparedScene& prepared);
+
 }  // namespace rsphere
