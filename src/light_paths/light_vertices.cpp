@@ -212,7 +212,7 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
   const Portals& portals = all_.surfaces_.portals();
   return !portals.empty() &&
-         portals.isLeft(beam_.origin + hit.distance * beam_.direction, -beam_.direction, hit.distance);
+         portals.lineLeaves(beam_.origin + hit.distance * beam_.direction, -beam_.direction, hit.distance);
 }
 
 void LightVertices::Path::leaveSky(double where) {

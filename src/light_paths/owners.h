@@ -23,6 +23,8 @@ enum class LightPart : uint8_t {
   // end of the ray with light vertices and portals.
   indirect,
   // The part of `indirect` from beyond a portal, such as a pane, where a ray from the eye leaves through it.
+  // From the first diffuse surface on, the place that the ray comes from is already connected with the
+  // portal: Owner::earlier.
   throughPortal
 };
 

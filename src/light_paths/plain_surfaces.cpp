@@ -126,7 +126,7 @@ bool PlainSurfaces::isLitOutdoors(const LightSource& image) const {
   Random random(image.surface.index());
   for (int i = 0; i < tuning::Caps::kProbes; ++i) {
     const V3d at = samplePoint(scene_.surfaces[image.surface].shape, scene_.vertices, random).point;
-    if (!portals_.isLeft(at, towards, kFarAway) &&
+    if (!portals_.lineLeaves(at, towards, kFarAway) &&
         !isBlack(passingToSource(at, towards, kFarAway, image.surface)))
       return true;
   }
@@ -166,11 +166,11 @@ bool bringLightOf(LightId source, const PreparedScene& prepared, const PlainSurf
     const V3d& normal = *planeNormal(mirror);
     const double cosine = normal.dot(direction),
                  distance = (planeOffset(mirror) - normal.dot(point)) / cosine;
-    if (portals.isLeft(point, direction, distance)) return false;
+    if (portals.lineLeaves(point, direction, distance)) return false;
     point += distance * direction;
     direction -= 2 * cosine * normal;
   }
-  return portals.isLeft(point, direction, kFarAway);
+  return portals.lineLeaves(point, direction, kFarAway);
 }
 
 void PlainSurfaces::findSurfaces() {
@@ -285,7 +285,7 @@ Coefficient PlainSurfaces::passing(const V3d& to, const V3d& from, SurfaceId sta
   const double distance = between.length();
   if (!(distance > 0)) return {};
   const V3d direction = between / distance;
-  if (portals_.isLeft(to, direction, distance)) return {};
+  if (portals_.lineLeaves(to, direction, distance)) return {};
   return passingToSource(to, direction, distance, start);
 }
 

@@ -28,7 +28,8 @@ class Portals {
   // The distance at which a straight line first leaves through a portal; kFarAway if it does not within
   // `farthest`.
   double leaving(const V3d& origin, const V3d& direction, double farthest) const;
-  bool isLeft(const V3d& origin, const V3d& direction, double farthest) const {
+  // Whether it leaves through one.
+  bool lineLeaves(const V3d& origin, const V3d& direction, double farthest) const {
     return leaving(origin, direction, farthest) < farthest;
   }
 

@@ -215,11 +215,11 @@ template void OutgoingLight::addScattered(RayEnd&, BsdfScattering&, RayResult&);
 // ---- who estimates what
 
 bool OutgoingLight::leavesThroughPortal(const RayEnd& end) const {
-  return state_.request.vertexLight->surfaces().portals().isLeft(end.ray.origin, end.ray.direction,
-                                                                 end.hit.length);
+  return state_.request.vertexLight->surfaces().portals().lineLeaves(end.ray.origin, end.ray.direction,
+                                                                     end.hit.length);
 }
 
-bool OutgoingLight::leftToPortals(const RayEnd& end) const {
+bool OutgoingLight::endsAtPortal(const RayEnd& end) const {
   const PathContext& ray = end.context;
   return ownerOf(LightPart::throughPortal, {.known = ray.known,
                                             .isShadow = (ray.kinds & kShadow) != 0,

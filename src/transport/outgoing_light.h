@@ -22,8 +22,9 @@ class OutgoingLight : PathPart {
 
   // Whether a ray leaves through a portal (portals.h). REQUIRES that paths from both ends are used.
   bool leavesThroughPortal(const RayEnd& end) const;
-  // Whether these then estimate all of the light along the ray.
-  bool leftToPortals(const RayEnd& end) const;
+  // Whether it ends there: the place that it comes from is already connected with the portal, and thereby
+  // gets all light from beyond it.
+  bool endsAtPortal(const RayEnd& end) const;
 
   DirectLight direct;
   SpecularLight specular;

@@ -162,7 +162,7 @@ RayResult PathTracer::Path::passOn(NextRay& next, const RayEnd& before) {
 // The result of a ray whose hit is known.
 [[gnu::always_inline]] inline RayResult PathTracer::Path::arrive(RayEnd& end) {
   RayResult result;
-  if (end.context.known != Known::no && shading_.light().leftToPortals(end)) return result;
+  if (end.context.known != Known::no && shading_.light().endsAtPortal(end)) return result;
   if (const SurfaceId surface = end.hit.surface; surface != kNone) {
     result.unmirroredLength = end.hit.length;
     if (!shading_.shade(end, result) && !t_.scene().surfaces[surface].shape.as<Distant>()) result = pass(end);

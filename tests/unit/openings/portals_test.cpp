@@ -36,7 +36,7 @@ TEST(Portals, AreLeftFromInsideOnly) {
   EXPECT_EQ(hole.portals.leaving(V3d(2, 3, 1.5), V3d(0, -1, 0), 2), kFarAway) << "ends before it";
   EXPECT_EQ(hole.portals.leaving(V3d(2, 3, 2.5), V3d(0, -1, 0), 10), kFarAway) << "passes above it";
   EXPECT_EQ(hole.portals.leaving(V3d(2, -3, 1.5), V3d(0, 1, 0), 10), kFarAway) << "enters by it";
-  EXPECT_FALSE(hole.portals.isLeft(V3d(2, 3, 1.5), V3d(0, 1, 0), 10));
+  EXPECT_FALSE(hole.portals.lineLeaves(V3d(2, 3, 1.5), V3d(0, 1, 0), 10));
 }
 
 TEST(Portals, HaveTheProjectedAreaOfTheHole) {
