@@ -23,7 +23,7 @@ struct BsdfFrame {
 std::optional<BsdfFrame> bsdfFrame(const Interaction& at, const V3d& up);
 
 // Fulfils the concept ScattersLight (surface_scattering.h).
-class BsdfScattering {
+class BsdfScattering : public UsualScattering {
  public:
   // Keeps a reference to the data. thickness (world units): of the hidden geometry behind the front;
   // transmitted light starts behind it. views: number of views within a cell over which the scattering of
@@ -32,7 +32,6 @@ class BsdfScattering {
                  const BsdfFrame& frame, double thickness, int views, const MaterialOptions& options);
 
   const SharpPaths& sharp() const { return sharp_; }
-  Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component component, Random& random);
   LobeSample draw(Component component, int i, int n, Random& random) const;
   Coefficient indirect(Component component) const {
@@ -47,11 +46,7 @@ class BsdfScattering {
     return component == Component::reflected ? kNoOffset : across_;
   }
   bool takesDirect(Component component) const { return component == Component::reflected || thick_; }
-  const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component component, const V3d& toSource, double solidAngle, Random& random) const;
-  double lobeDensity(Component, const V3d&) const { return 0; }
-  Color lobeShare(Component) const { return {}; }
-  bool isEven() const { return false; }
 
  private:
   const DirectedScattering* part(Component component) const {

@@ -88,8 +88,18 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
   { c.isEven() } -> std::same_as<bool>;
 };
 
+// The answers of most models.
+struct UsualScattering {
+  static Components components() { return kComponents; }
+  static const V3d& offset(Component) { return kNoOffset; }
+  static const V3d& front() { return kNoFront; }
+  static double lobeDensity(Component, const V3d&) { return 0; }
+  static Color lobeShare(Component) { return {}; }
+  static bool isEven() { return false; }
+};
+
 // plastic, metal, trans: rotationally symmetric lobes (scattering.h).
-class RoundScattering {
+class RoundScattering : public UsualScattering {
  public:
   RoundScattering(const Opaque& material, const MaterialHit& hit) : RoundScattering(material, hit, false) {}
   RoundScattering(const Trans& material, const MaterialHit& hit) : RoundScattering(material, hit, true) {
@@ -110,7 +120,6 @@ class RoundScattering {
   }
   const V3d& normal(Component) const { return scattering_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
-  const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const {
     return component == components().back() && (transmits_ || !isBlack(scattering_.diffuseReflection) ||
                                                 !isBlack(scattering_.specularReflection));
@@ -147,7 +156,7 @@ class RoundScattering {
 };
 
 // plastic2, metal2, trans2, WGMDfunc: elliptic lobes (anisotropic.h).
-class EllipticScattering {
+class EllipticScattering : public UsualScattering {
  public:
   // along: as for scatter(const Anisotropic&, ...). Warns once per material if a highlight is anisotropic but
   // its orientation vector defines no tangent direction.
@@ -163,7 +172,6 @@ class EllipticScattering {
       : at_(at), scattering_(scattering), spread_(options) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
-  Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component component, Random&) const {
     return lobeOf(component).sampled ? std::optional(Lobe{}) : std::nullopt;
   }
@@ -171,9 +179,7 @@ class EllipticScattering {
   Coefficient indirect(Component component) const { return Coefficient(diffuse(component).ambient); }
   const V3d& normal(Component component) const { return diffuse(component).normal; }
   const V3d& trueNormal() const { return at_.normal; }
-  const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const { return component == Component::transmitted; }
-  const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle, spread_.source);
   }
@@ -183,7 +189,6 @@ class EllipticScattering {
                : 0;
   }
   const Color& lobeShare(Component component) const { return lobeOf(component).share; }
-  bool isEven() const { return false; }
 
  private:
   const EllipticLobe& lobeOf(Component component) const {
@@ -199,7 +204,7 @@ class EllipticScattering {
 };
 
 // ashik2 (anisotropic.h).
-class AshikhminLobeScattering {
+class AshikhminLobeScattering : public UsualScattering {
  public:
   AshikhminLobeScattering(const AshikhminScattering& scattering, const Interaction& at)
       : at_(at), scattering_(scattering) {}
@@ -211,15 +216,10 @@ class AshikhminLobeScattering {
   Coefficient indirect(Component) const { return Coefficient(scattering_.reflection.ambient); }
   const V3d& normal(Component) const { return scattering_.reflection.normal; }
   const V3d& trueNormal() const { return at_.normal; }
-  const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component) const { return true; }
-  const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
-  double lobeDensity(Component, const V3d&) const { return 0; }
-  Color lobeShare(Component) const { return {}; }
-  bool isEven() const { return false; }
 
  private:
   Interaction at_;
@@ -228,7 +228,7 @@ class AshikhminLobeScattering {
 };
 
 // plasfunc and the like, BRTDfunc: functions give the scattering of direct light (function_reflection.h).
-class ProgrammedScattering {
+class ProgrammedScattering : public UsualScattering {
  public:
   // Keeps references to the functions and to the scratch memory. material: index in Scene::modifiers.
   ProgrammedScattering(const FunctionScattering& scattering, const Interaction& at,
@@ -242,7 +242,6 @@ class ProgrammedScattering {
         material_(material) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
-  Components components() const { return kComponents; }
   std::optional<Lobe> lobe(Component, Random&) const { return {}; }
   LobeSample draw(Component, int, int, Random&) const { return {}; }
   Coefficient indirect(Component component) const {
@@ -251,17 +250,12 @@ class ProgrammedScattering {
   }
   const V3d& normal(Component) const { return scattering_.normal; }
   const V3d& trueNormal() const { return at_.normal; }
-  const V3d& offset(Component) const { return kNoOffset; }
   bool takesDirect(Component component) const;
-  const V3d& front() const { return kNoFront; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, toSource, solidAngle, [&] {
       return functions_->distribution(material_, point_, toSource, solidAngle, *scratch_);
     });
   }
-  double lobeDensity(Component, const V3d&) const { return 0; }
-  Color lobeShare(Component) const { return {}; }
-  bool isEven() const { return false; }
 
  private:
   Interaction at_;
