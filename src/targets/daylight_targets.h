@@ -20,8 +20,8 @@ class OpeningTargets {
   std::vector<Opening> openings_;
 };
 
-// Images of openings in flat mirrors. An image is far brighter than
-// the rest of the mirror, and may be small in it, so that it is a separate target.
+// Images of openings in flat mirrors. An image is far brighter than the rest of the mirror, and may be small
+// in it, so that it is a separate target.
 class MirroredOpenings {
  public:
   explicit MirroredOpenings(const TargetScene& scene)
