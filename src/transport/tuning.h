@@ -90,7 +90,8 @@ struct SpecularLight {
   // Sharp paths of indirect rays are subject to Russian roulette if their weight, relative to the weight of
   // the arriving ray, is below this. One in three reflections by a pane is then followed. Measured in four
   // daylit rooms without interpolation: it reduces the time for equal noise by 3 to 22%; with 1, the noise is
-  // up to 1.5 times as large.
+  // up to 1.5 times as large. Without it, variance x time is 1.11 to 1.25 times as large in three sunlit
+  // rooms (tests/bench/mechanisms/runs/2026-11-29-tails.txt).
   RSPHERE_TUNED(SpecularLight, double, kWeakBranch, .25);
   // Number of samples of a lobe that a point of sphere mode sees directly, if the lobe's share is at least
   // VertexLight::kStrong: few of the directions see a rough column. Measured 6 cm beside a column of brushed
