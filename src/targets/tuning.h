@@ -41,7 +41,9 @@ struct Targets {
   // An opening gets at least Caps::kProbes directions if it would, unoccluded, give more than this fraction
   // of the light at a point: chosen by experiment. With .1, a far window that happens to be dark in the rays
   // around a point causes errors of up to 10% instead of 5%. With only 8 directions, an opening with an
-  // eighth hidden often looks unobstructed.
+  // eighth hidden often looks unobstructed. Without the minimum, variance x time is 1.46 times as large in a
+  // room with a small window (-aa .1), and 1.0 to 1.1 times in five other rooms
+  // (tests/bench/mechanisms/runs/2026-11-29-tails.txt).
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
   // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:
   // chosen by experiment. Fitting biases the mean if the number of directions is correlated with the radiance
