@@ -23,7 +23,8 @@ struct Node {
   // realArgument, `b` is the index of its message.
   uint32_t a = 0, b = 0, c = 0;
   double value = 0;  // constant
-  // host, call: operands. select: its index, the number of its choices as a node, then the choices.
+  // host, call: operands. select: its index; a constant, the number of choices, which is the value for
+  // index 0; then the choices.
   std::vector<Id> list;
 
   uint32_t cost = 0;  // of this operation and all its operands as if no node were shared; unit: one addition
