@@ -9,6 +9,7 @@ import unittest
 import numpy as np
 
 from rsphere.annual.sky import daylight_of, patches
+from rsphere.annual.sun import sun_position
 from run_here import built, run_here
 
 WEA = "place X\nlatitude 50\nlongitude -10\ntime_zone -15\nsite_elevation 100\nweather_data_file_units 1\n"
@@ -156,6 +157,17 @@ class Annual(unittest.TestCase):
             self.assertEqual(self.light(weather), self.light(good))
         self.assertEqual(self.light(e.replace(",", ", ").replace("LOCATION, ", "LOCATION,"), name="w.epw"), self.light(e, name="w.epw"), "blanks before fields")
         self.assertEqual(self.light(WEA + "2 29 12.5 300 100\n")[1].count("\n"), 1, "one hour")
+
+    def test_the_sun_of_a_leap_day(self):
+        """It was that of 28 February; gensky 2 29 and 3 1, and gendaymtx, have the sun of 1 March: beside -a 47 -o -8 -m -15."""
+        before, leap, after = (sun_position(month, day, 12, 47, 8, 15) for month, day in ((2, 28), (2, 29), (3, 1)))
+        self.assertEqual(leap, after)
+        self.assertAlmostEqual(np.degrees(after[0] - before[0]), 0.375, delta=0.01)
+        self.assertAlmostEqual(np.sin(leap[0]), 0.5588, delta=0.002)
+        days = [WEA + "".join(f"{date} {hour}.5 300 100\n" for hour in range(7, 18)) for date in ("2 28", "2 29", "3 1")]
+        light = [self.light(text)[0] for text in days]
+        self.assertEqual(light[1], light[2])
+        self.assertNotEqual(light[0], light[1])
 
     def test_weather_that_is_surely_wrong(self):
         """Of many hours it is refused, with the first line that is: it was computed with a warning, in one case to not a number."""

@@ -5,7 +5,8 @@ MONTHS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
 
 
 def day_of_year(month, day):
-    return sum(MONTHS[: month - 1]) + min(day, MONTHS[month - 1])
+    """1 to 365. 29 February has the number of 1 March, as in gensky and gendaymtx; that of 28 February would be as far from its sun."""
+    return sum(MONTHS[: month - 1]) + day
 
 
 def sun_position(month, day, hour, latitude, longitude, zone):
