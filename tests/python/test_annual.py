@@ -158,6 +158,18 @@ class Annual(unittest.TestCase):
         self.assertEqual(self.light(e.replace(",", ", ").replace("LOCATION, ", "LOCATION,"), name="w.epw"), self.light(e, name="w.epw"), "blanks before fields")
         self.assertEqual(self.light(WEA + "2 29 12.5 300 100\n")[1].count("\n"), 1, "one hour")
 
+    def test_misspelt_options(self):
+        """-time was read as -t ime, and the next word as a scene."""
+        for command, words, nearest in (("annual", ("-time", "8"), "--title"), ("annual", ("--wether", "w"), "--weather"), ("annual", ("-weather=w",), "--weather"),
+                                        ("annual", ("--quite", "w"), None), ("layout", ("-secnds", "8"), "--seconds"), ("luminaire", ("--unit", "m"), "--units")):
+            with self.subTest(words):
+                run = run_here([built("rsphere-" + command), *words, "a", "b"])
+                hint = f'; the nearest is "{nearest}"' if nearest else ""
+                self.assertEqual((run.returncode, run.stdout, run.stderr), (1, "", f"rsphere-{command}: fatal - command line error at '{words[0].split('=')[0]}': "
+                                                                                   f"there is no such option{hint}; see -help\n"))
+        run = run_here([built("rsphere-annual"), "-n1", "--weather=none.epw", "a.rad"])
+        self.assertEqual((run.returncode, run.stderr), (1, "rsphere-annual: fatal - none.epw: cannot be read: No such file or directory\n"), "glued values")
+
     def test_the_sun_of_a_leap_day(self):
         """It was that of 28 February; gensky 2 29 and 3 1, and gendaymtx, have the sun of 1 March: beside -a 47 -o -8 -m -15."""
         before, leap, after = (sun_position(month, day, 12, 47, 8, 15) for month, day in ((2, 28), (2, 29), (3, 1)))

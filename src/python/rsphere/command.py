@@ -1,7 +1,9 @@
 """What the commands of this package share: their options, messages and ends, and where the programs of rsphere are."""
 import argparse
+import difflib
 import importlib
 import os
+import re
 import sys
 import warnings
 
@@ -54,6 +56,16 @@ class Options(argparse.ArgumentParser):
             default = f" [{value}]" if action.nargs != 0 and value not in (None, "") else ""
             lines.append(f"  {names:<24} {action.help}{default}")
         return "\n".join([*lines, "", self.text]).rstrip() + "\n"
+
+    def parse_known_args(self, args=None, namespace=None):
+        """Refuses unknown options at once, with the nearest name: argparse would read -time as -t ime."""
+        args = sys.argv[1:] if args is None else args
+        for name in (word.split("=")[0] for word in (args[: args.index("--")] if "--" in args else args)):
+            if re.match("--.|-[A-Za-z]{2}", name) and name not in self._option_string_actions:
+                near = difflib.get_close_matches(name.lstrip("-"), [known.lstrip("-") for known in self._option_string_actions], 1, 0.65)
+                hint = "".join(f'; the nearest is "{known}"' for known in self._option_string_actions if near == [known.lstrip("-")])
+                self.fail(f"command line error at '{name}': there is no such option{hint}; see -help")
+        return super().parse_known_args(args, namespace)
 
     def note(self, action, value, option):
         if action.dest in self.noted and self.noted[action.dest][1] != value and not isinstance(action, argparse._AppendAction):
