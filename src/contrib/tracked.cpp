@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <unordered_map>
 
 #include "rays/ray_functions.h"
@@ -30,6 +32,24 @@ Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> mod
     modifierOf_.push_back(found == byName.end() ? kNotTracked : found->second);
   }
   warnOfMissingModifiers(prepared.scene(), names, "", warn_);
+  if (what_ == Contributed::coefficients) chooseLights();
+}
+
+// The coefficient of a path does not depend on the light of sources that are not tracked, unlike the value of
+// a tracked surface that they light. A virtual source contributes to its relay and to the source that it shows.
+void Tracked::chooseLights() {
+  const auto& lights = prepared_.lights().all();
+  for (const LightSource& light : lights) {
+    const LightSource* source = &light;
+    while (modifierOf(source->surface) == kNotTracked && source->isVirtual())
+      source = &lights[source->relayed];
+    sampledLights_.push_back(modifierOf(source->surface) != kNotTracked);
+  }
+  if (std::ranges::all_of(sampledLights_, std::identity())) sampledLights_.clear();
+}
+
+uint32_t Tracked::modifierOf(SurfaceId surface) const {
+  return modifierOf_[prepared_.scene().surfaces.face(surface).finish];
 }
 
 int Tracked::components() const {
@@ -73,7 +93,7 @@ std::optional<uint32_t> Tracked::columnOf(size_t modifier, const RayEnd& end, Bi
 void Tracked::add(const RayEnd& end, const RayResult& result, BinScratch& scratch,
                   ContributionList& to) const {
   if (end.hit.surface == kNone) return;
-  const uint32_t modifier = modifierOf_[prepared_.scene().surfaces.face(end.hit.surface).finish];
+  const uint32_t modifier = modifierOf(end.hit.surface);
   if (modifier == kNotTracked || !counts(end, result)) return;
   const std::optional<uint32_t> column = columnOf(modifier, end, scratch);
   if (!column) return;
@@ -91,7 +111,10 @@ const ContributionList& ContributionTracer::trace(const V3d& origin, const V3d& 
   const RayObserver observer = [this](const RayEnd& end, const RayResult& result) {
     tracked_.add(end, result, scratch_, list_);
   };
-  const PathRequest request{.observer = &observer, .shadows = ShownShadows::thatArrive, .rays = rays};
+  const PathRequest request{.observer = &observer,
+                            .shadows = ShownShadows::thatArrive,
+                            .rays = rays,
+                            .sampledLights = tracked_.sampledLights()};
   ray_ = tracer_.trace(origin, direction, farthest, seed, request);
   return list_;
 }

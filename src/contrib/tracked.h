@@ -43,6 +43,10 @@ class Tracked {
   uint32_t firstColumn(size_t modifier) const { return firstColumn_[modifier]; }
   // The number of values in a column: 3, or one for each band of a spectral run.
   int components() const;
+  // By LightId, the light sources whose shadow rays may contribute; null: all.
+  const std::vector<bool>* sampledLights() const {
+    return sampledLights_.empty() ? nullptr : &sampledLights_;
+  }
 
   // Adds the contribution of a ray of a path. There is none if its surface is not tracked, if it is a shadow
   // ray that did not reach its source, or if it hit a light source that is sampled by shadow rays. Called for
@@ -52,6 +56,8 @@ class Tracked {
  private:
   std::optional<uint32_t> columnOf(size_t modifier, const RayEnd& end, BinScratch& scratch) const;
   bool counts(const RayEnd& end, const RayResult& result) const;
+  uint32_t modifierOf(SurfaceId surface) const;
+  void chooseLights();
 
   const PreparedScene& prepared_;
   std::vector<TrackedModifier> modifiers_;
@@ -61,6 +67,7 @@ class Tracked {
   uint32_t columns_ = 0;
   static constexpr uint32_t kNotTracked = ~uint32_t{0};
   std::vector<uint32_t> modifierOf_;  // by index of a finish; kNotTracked: none
+  std::vector<bool> sampledLights_;
   mutable std::vector<std::atomic<bool>> warned_;
 };
 

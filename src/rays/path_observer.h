@@ -1,6 +1,7 @@
 #pragma once
 // What a caller requests of a path, and the results of a path besides its radiance.
 #include <functional>
+#include <vector>
 
 #include "rays/ray_functions.h"
 #include "trace/tracer.h"
@@ -45,6 +46,8 @@ struct PathRequest {
   // highlight. Farther along the path, light that has another owner is left out, too (owners.h). Null: plain
   // surfaces are shaded like others.
   const VertexLight* vertexLight = nullptr;
+  // If not null, by LightId, whether shadow rays are sent to a light source. The light of others is left out.
+  const std::vector<bool>* sampledLights = nullptr;
 };
 
 // The parts of the light that were left out because of PathRequest::leavesOutIndirect and leavesOutLobes.

@@ -210,8 +210,9 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   const std::span<const uint32_t> sources = state_.request.shadows == ShownShadows::all
                                                 ? t_.lights().hidden().all()
                                                 : notHiddenFrom(at.point, front);
+  const std::vector<bool>* const sampled = state_.request.sampledLights;
   for (const uint32_t i : sources)
-    if (!leftOut || !leftOut->knows(LightId(i)))
+    if ((!sampled || (*sampled)[i]) && (!leftOut || !leftOut->knows(LightId(i))))
       t_.lights().sample(LightId(i), at.point, how, state_.random, scratch_.samples);
   if (scratch_.contributions.size() < scratch_.samples.size()) {
     scratch_.contributions.resize(scratch_.samples.size());

@@ -79,6 +79,35 @@ TEST(Tracked, SumOverAllThatEmitsIsTheAnswer) {
     }
 }
 
+// Coefficients of some modifiers, without shadow rays to the other sources, are those among all. "silver" is the
+// mirror that shows other sources.
+TEST(Tracked, SourcesThatAreNotTrackedAreLeftOutOfCoefficients) {
+  RayOptions o = rayOptions(3);
+  o.directJitter = 0;  // samples of sources then use no random numbers
+  Traced room(kRoom, o);
+  std::vector<std::string> names = kEmitters;
+  names.emplace_back("silver");
+  const Tracked all(room.prepared(), tracked(names), Contributed::coefficients);
+  EXPECT_EQ(Tracked(room.prepared(), tracked({"lamp"}), Contributed::values).sampledLights(), nullptr);
+  for (size_t m = 0; m < names.size(); ++m) {
+    const Tracked one(room.prepared(), tracked({names[m]}), Contributed::coefficients);
+    ASSERT_NE(one.sampledLights(), nullptr) << names[m];
+    ContributionTracer ofAll(room.transport().pathTracer(), all), ofOne(room.transport().pathTracer(), one);
+    Color sum(0, 0, 0), alone(0, 0, 0);
+    for (const V3d& direction : {V3d(0, 0, -1), V3d(-1, .1, -.2), V3d(.9, -.6, -.5), V3d(.3, 1, -.4)})
+      for (uint64_t seed = 1; seed < 5; ++seed) {
+        const V3d origin(2, 2, 1.2), unit = direction.normalized();
+        const ContributionList& list = ofAll.trace(origin, unit, 0, seed);
+        for (size_t i = 0; i < list.columns().size(); ++i)
+          if (list.columns()[i] == m)
+            sum += Color(list.values()[3 * i], list.values()[3 * i + 1], list.values()[3 * i + 2]);
+        alone += sumOf(ofOne.trace(origin, unit, 0, seed));
+      }
+    EXPECT_GT(sum.x, 0) << names[m];
+    expectEqual(alone, sum, 1e-12);
+  }
+}
+
 // A room with a window, without light sources.
 const std::string kDaylit =
     "void plastic white 0 0 5 .6 .5 .4 0 0\nvoid glass clear 0 0 3 .9 .8 .7\nvoid glow sky 0 0 4 1 1 1 0\n"
