@@ -99,9 +99,10 @@ bool takes(const OptionEntry& entry) {
 constexpr double kMostBins = 1e7;
 
 // Empty if the whole modifier is in bin 0.
-std::optional<BinFunction> binOf(const TrackedName& tracked, BinFunctions& functions) {
+std::optional<BinFunction> binOf(const TrackedName& tracked, const BinDefinitions& definitions,
+                                 BinFunctions& functions) {
   if (tracked.bin == "0") return std::nullopt;
-  const BinFunction bin = functions.compile("-b", tracked.bin, tracked.definitions);
+  const BinFunction bin = functions.compile("-b", tracked.bin, definitions);
   if (!bin.isConstant()) return bin;
   if (std::floor(bin.constant() + .5) != 0)
     throw rad::Error(
@@ -152,8 +153,9 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
   // As in RADIANCE, a file that cannot be read is an error even if no bin uses it.
   functions.load(options.next.definitions);
   for (const TrackedName& tracked : options.tracked) {
-    functions.load(tracked.definitions);
-    std::optional<BinFunction> bin = binOf(tracked, functions);
+    const BinDefinitions all{options.next.definitions.shared, tracked.definitions.parameters};
+    functions.load(all);
+    std::optional<BinFunction> bin = binOf(tracked, all, functions);
     const uint32_t bins = bin ? binCountOf(tracked, functions) : 1;
     modifiers.push_back({tracked.name, bins, std::move(bin)});
     columns += bins;
@@ -164,6 +166,23 @@ std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options
                     "several times, with some of the modifiers each",
                     columns, kMostBins));
   return modifiers;
+}
+
+std::vector<std::string> warningsOfUnused(const ContributionOptions& options) {
+  std::vector<std::string> warnings;
+  const TrackedName &next = options.next, &last = options.tracked.back();
+  const auto compare = [&](std::string_view option, const std::string& given, const std::string& used) {
+    if (given != used)
+      warnings.push_back(fmt::format(
+          "{} {} has no effect, because no -m or -M follows it: give it before the modifiers that it is for",
+          option, given));
+  };
+  compare("-b", next.bin, last.bin);
+  compare("-bn", next.bins, last.bins);
+  compare("-p", next.definitions.parameters, last.definitions.parameters);
+  compare("-o", next.output, last.output);
+  compare("-oe", next.errors, last.errors);
+  return warnings;
 }
 
 const Companion& contributionCompanion() {

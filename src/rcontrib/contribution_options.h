@@ -7,7 +7,8 @@
 
 namespace rsphere {
 
-// A modifier named by -m or -M, with its bins and output as defined by the preceding options.
+// A modifier named by -m or -M, with its bins and output as defined by the preceding options. The definitions
+// of -e and -f are common to the bins of all modifiers, as in RADIANCE, wherever they are given.
 struct TrackedName {
   std::string name;
   BinDefinitions definitions;          // -e -f -p
@@ -39,6 +40,10 @@ struct ContributionOptions : Options {
 // The modifiers with their compiled bins. Throws rad::Error if a definition or an expression is invalid, or
 // if the number of bins is missing or invalid.
 std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options);
+
+// Warnings of those of -b -bn -p -o -oe that no modifier has, because they follow the last -m and -M. RADIANCE
+// ignores them.
+std::vector<std::string> warningsOfUnused(const ContributionOptions& options);
 
 // Describes rcontrib for parseCompanion(), with ContributionOptions.
 const Companion& contributionCompanion();

@@ -62,6 +62,7 @@ AnswerRecord answerContributions(std::vector<ContributionTracer>& tracers,
 
 void runContributions(const ContributionOptions& options, const Messages& messages, StopSignals& signals) {
   const rad::Warn warn = [&](std::string_view text) { messages.warning(text); };
+  for (const std::string& warning : warningsOfUnused(options)) warn(warning);
   std::vector<TrackedModifier> modifiers = trackedModifiers(options);
   const Scene scene = loadScene(options, warn);
   const Transport transport(scene, options.ray, options.irradiance, false, warn);

@@ -45,6 +45,37 @@ TEST(ContributionOptions, DefaultsAreThoseOfRadiance) {
   EXPECT_EQ(options.raysPerRecord, 1);
 }
 
+// `options` before and after the modifier a.
+std::vector<std::string> unused(std::vector<std::string> before, const std::vector<std::string>& after) {
+  before.insert(before.end(), {"-m", "a"});
+  before.insert(before.end(), after.begin(), after.end());
+  return warningsOfUnused(parsed(before));
+}
+
+TEST(ContributionOptions, OptionsThatNoModifierFollowsAreWarnings) {
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"-b", "Dx"}, {"-bn", "4"}, {"-p", "x=1"}, {"-o", "out"}, {"-oe", "out"}}) {
+    const std::vector<std::string> warnings = unused({}, option);
+    ASSERT_EQ(warnings.size(), 1u) << option[0];
+    EXPECT_EQ(warnings[0].find(option[0] + " " + option[1] + " has no effect"), 0u) << warnings[0];
+    EXPECT_TRUE(unused(option, {}).empty()) << option[0];
+    EXPECT_TRUE(unused(option, option).empty()) << "what the modifier has";
+  }
+  EXPECT_EQ(unused({}, {"-o", "out", "-bn", "4"}).size(), 2u);
+  EXPECT_TRUE(unused({}, {"-c", "2", "-V+", "-e", "x=1", "-f", "bins.cal"}).empty()) << "of all modifiers";
+}
+
+// As in RADIANCE, where expressions are evaluated after the command line is read.
+TEST(ContributionOptions, DefinitionsAreCommonToAllModifiers) {
+  const std::vector<std::string> later{"-bn", "2", "-b", "bin", "-m", "a", "-e", "bin=if(Dz,1,0)"};
+  EXPECT_EQ(fault(later), "no fault");
+  const std::vector<TrackedModifier> found = trackedModifiers(parsed(later));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].bins, 2u);
+  EXPECT_NE(fault({"-bn", "n", "-b", "Dx", "-m", "a", "-e", "n=2"}).find("n"), std::string::npos)
+      << "-bn is evaluated where it is given";
+}
+
 // Interpolated light and untested sources cannot be divided among modifiers.
 TEST(ContributionOptions, NothingIsInterpolatedWhateverIsGiven) {
   const ContributionOptions options = parsed({"-aa", ".2", "-as", "64", "-dt", ".1", "-m", "a"});
