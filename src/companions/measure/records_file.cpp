@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include "answer/batch.h"
 #include "rad_parser/error.h"
@@ -25,7 +26,16 @@ std::vector<double> readRecords(const std::string& name, const AnswerOptions& op
   RecordReader reader = readerOf(file.fd, options, name == "-" ? "stdin" : name);
   std::vector<double> numbers;
   constexpr size_t kAtOnce = 4096;
-  while (reader.read(numbers, kAtOnce) > 0) {
+  try {
+    while (reader.read(numbers, kAtOnce) > 0) {
+    }
+  } catch (const rad::Error& error) {
+    // The first word is none of the numbers: the file may be the scene.
+    if (!numbers.empty() || error.status() != rad::Status::input ||
+        !std::string_view(error.what()).ends_with('"'))
+      throw;
+    throw rad::Error(
+        fmt::format("{}; the file of records is the last argument, after the scene", error.what()));
   }
   if (reader.firstRecordIsText())
     throw rad::Error(
