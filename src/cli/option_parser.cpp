@@ -496,6 +496,12 @@ Use takeUse(Words& words, const Companion& companion, const std::string& word) {
   while (use.words.size() < static_cast<size_t>(arity(*entry))) {
     if (words.atEnd()) missingWords(word, *entry, use.words.size(), nullptr);
     if (isMissing(*entry, words.word())) missingWords(word, *entry, use.words.size(), &words.word());
+    // After a first number, another word may be the scene: -av .1 room.rad.
+    if (std::holds_alternative<ColorValue>(entry->value) && !use.words.empty() &&
+        rad::parseReal(use.words[0]) && !rad::parseReal(words.word()))
+      commandLineError(word, fmt::format("\"{}\" is not a number, as value {} of {} ({} {}) must be",
+                                         rad::printable(words.word()), use.words.size() + 1, arity(*entry),
+                                         entry->name, entry->arguments));
     use.words.push_back(words.take());
   }
   return use;

@@ -97,6 +97,12 @@ TEST(ParseOptions, ErrorsOfTheCommandLineSayWhy) {
             "command line error at '-av': 2 of its 3 values are missing (-av red grn blu): the command line "
             "ends");
   EXPECT_EQ(
+      why({"rtrace", "-av", ".1", "box.rad"}),
+      "command line error at '-av': \"box.rad\" is not a number, as value 2 of 3 (-av red grn blu) must be");
+  EXPECT_EQ(
+      why({"rtrace", "-av", ".1", ".1", "box.rad", "s.oct"}),
+      "command line error at '-av': \"box.rad\" is not a number, as value 3 of 3 (-av red grn blu) must be");
+  EXPECT_EQ(
       why({"rtrace", "s.oct", "t.oct", "-ab", "1"}),
       "command line error at 's.oct': the scene begins here, but '-ab' follows; options come before the "
       "scene");
