@@ -144,8 +144,12 @@ CommandOptions commandOptions(const Options& options, Records records) {
   add(result.sceneKey, records == Records::contributions ? "contributions" : result.options.program);
   // Standard errors (-oe) need several solutions.
   if (result.options.estimatesRays()) add(result.sceneKey, "standard errors");
+  // Light of contributions is not interpolated, so that what is prepared has no random numbers of -Sr.
+  const auto changesScene = [&](const OptionEntry& entry) {
+    return !isOfOutput(entry) && !(records == Records::contributions && entry.name == "-Sr");
+  };
   for (const UsedOption& option : used)
-    if (!isOfOutput(*option.entry))
+    if (changesScene(*option.entry))
       for (const std::string& word : option.words) add(result.sceneKey, word);
   return result;
 }

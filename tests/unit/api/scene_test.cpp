@@ -617,6 +617,23 @@ TEST(Contributions, AddUpToTheValueOfTheRay) {
   EXPECT_GT(all, 0);
 }
 
+// Calls with other random numbers (-Sr) share what is prepared, which changes no number.
+TEST(Contributions, DoNotDependOnEarlierCalls) {
+  const std::vector<rsphere::Ray> rays = someRays();
+  rsphere::ContributionOptions options;
+  options.ambientBounces = 2;
+  options.ambientDivisions = 16;
+  options.samples = 1;
+  const Scene used({kRoom});
+  const rsphere::Contributions first = used.contributions(rays, {"bulb"}, options);
+  options.rotation = 1;
+  const rsphere::Contributions second = used.contributions(rays, {"bulb"}, options);
+  EXPECT_EQ(second.value.numbers, Scene({kRoom}).contributions(rays, {"bulb"}, options).value.numbers);
+  EXPECT_NE(second.value.numbers, first.value.numbers);
+  EXPECT_EQ(command("rcontrib", "-V+ -u- -Sr 1 -ab 2 -ad 16 -m bulb " + kRoom, numbersOf(rays)),
+            second.value.numbers);
+}
+
 TEST(Contributions, StateTheirErrors) {
   const Scene scene({kRoom});
   const std::vector<rsphere::Ray> rays(200, rsphere::Ray{{1.2, 1.9, .1}, {0, 0, 1}});
