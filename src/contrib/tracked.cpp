@@ -36,7 +36,8 @@ Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> mod
 }
 
 // The coefficient of a path does not depend on the light of sources that are not tracked, unlike the value of
-// a tracked surface that they light. A virtual source contributes to its relay and to the source that it shows.
+// a tracked surface that they light. A virtual source contributes to its relay and to the source that it
+// shows.
 void Tracked::chooseLights() {
   const auto& lights = prepared_.lights().all();
   for (const LightSource& light : lights) {

@@ -41,8 +41,8 @@ struct ContributionOptions : Options {
 // if the number of bins is missing or invalid.
 std::vector<TrackedModifier> trackedModifiers(const ContributionOptions& options);
 
-// Warnings of those of -b -bn -p -o -oe that no modifier has, because they follow the last -m and -M. RADIANCE
-// ignores them.
+// Warnings of those of -b -bn -p -o -oe that no modifier has, because they follow the last -m and -M.
+// RADIANCE ignores them.
 std::vector<std::string> warningsOfUnused(const ContributionOptions& options);
 
 // Describes rcontrib for parseCompanion(), with ContributionOptions.

@@ -10,7 +10,7 @@ import xml.dom.minidom
 import numpy as np
 
 from rsphere.annual.light import LEFT_OUT, Light, SunGrid, check_sky
-from rsphere.annual.passes import LoweredPass, Pass, Settings
+from rsphere.annual.passes import LoweredPass, Pass, SUN_GROUPS, Settings
 from rsphere.annual.sensors import draw_points, scene_files
 from rsphere.annual.shades import ALLOWED, ALONG, LOWERED, TRANSMITTANCE, UP, divided, group_of, states_by_rule
 from rsphere.annual.sun import MONTHS, sun_position
@@ -391,6 +391,21 @@ class Closed(InAFolder):
         alone = LoweredPass(room, "", group, *common[:3], np.zeros((0, 6)), *common[4:])
         alone.keep(np.array([1, 4]))
         np.testing.assert_array_equal(alone.estimate(0)[0], parts.estimate(0)[0][[1, 4]])
+
+    def test_groups_of_suns(self):
+        """Suns of a group share paths and others do not, so that noise of all suns together averages out; the mean is the same."""
+        room, sensors = self.scene(self.ROOM), np.array([[x, y, 0.8, 0, 0, 1.0] for x in (1, 3) for y in (0.7, 1.5, 3)])
+        angles = np.linspace(-0.3, 0.3, 16)
+        suns = np.array([[np.sin(a) * 0.8, -np.cos(a) * 0.8, 0.6] for a in angles])
+        one = Pass(room, "", self.folder.name, "pass", sensors, np.zeros((0, 6)), np.zeros((0, 3)), suns, Settings(bounces=4, sun_divisions=64, threads=1))
+        grouped = np.array([one.estimate(i)[1] for i in range(12)])
+        together = one.reflected_together(suns, 12)
+        np.testing.assert_allclose(grouped[0][:, ::SUN_GROUPS], together[0][:, ::SUN_GROUPS], rtol=1e-9, err_msg="the first group has the first paths")
+        self.assertTrue((grouped[0][:, 1::SUN_GROUPS] != together[0][:, 1::SUN_GROUPS]).any())
+        light, noise = grouped.sum(axis=2), [kind.sum(axis=2).std(axis=0, ddof=1) for kind in (grouped, together)]
+        self.assertLess(np.sqrt((noise[0] ** 2).mean()), 0.7 * np.sqrt((noise[1] ** 2).mean()))
+        error = np.hypot(*noise) / np.sqrt(12)
+        self.assertLess(np.abs((light.mean(axis=0) - together.sum(axis=2).mean(axis=0)) / error).max(), 4)
 
     def test_blinds_that_are_not_divided(self):
         """Panes of other shapes, and rooms with other openings, have rays through all of the blinds."""

@@ -79,8 +79,8 @@ TEST(Tracked, SumOverAllThatEmitsIsTheAnswer) {
     }
 }
 
-// Coefficients of some modifiers, without shadow rays to the other sources, are those among all. "silver" is the
-// mirror that shows other sources.
+// Coefficients of some modifiers, without shadow rays to the other sources, are those among all. "silver" is
+// the mirror that shows other sources.
 TEST(Tracked, SourcesThatAreNotTrackedAreLeftOutOfCoefficients) {
   RayOptions o = rayOptions(3);
   o.directJitter = 0;  // samples of sources then use no random numbers

@@ -29,7 +29,7 @@ from .weather import read_weather
 HOURS_OF_YEAR, HOURS_OF_LEAP_YEAR = 8760, 8784
 LATE, TOO_LATE = 0.05, 0.25  # of the light may be at hours when the sun is down: the first and the last hour of a day
 MOST_ESTIMATES = 512
-SUN_SHARE = 8  # of --divisions for reflected sun, whose rays take longer: least noise for the time in two rooms (least at 9 and 16)
+SUN_SHARE = 16  # of --divisions for reflected sun, whose rays take longer: for the noise of a year 20 were best, for that of single hours 8
 QUARTER_HOUR = 3.75  # degrees of longitude
 HIGH, FEW, SELDOM, DARK = math.radians(10), 8, 0.02, 0.05  # altitudes and numbers of hours by which units are judged, shares of hours and of light
 OFTEN, MANY = 0.1, 100  # share and number of hours from which on weather is surely wrong
@@ -62,7 +62,7 @@ def arguments():
     parser.add_argument("--glare", action="store_true", help="daylight glare probability at these eyes; takes seconds for each")
     parser.add_argument("--coefficients", metavar="FILE", help="of rcontrib or rfluxmtx, instead of a scene")
     parser.add_argument("-b", "--bounces", type=int, default=8, metavar="N", help="reflections that are followed")
-    parser.add_argument("-d", "--divisions", type=int, default=256, metavar="N", help="rays of a sensor (-ad) in each estimate")
+    parser.add_argument("-d", "--divisions", type=int, default=384, metavar="N", help="rays of a sensor (-ad) in each estimate")
     parser.add_argument("-e", "--estimates", type=int, default=ESTIMATES, metavar="N", help="independent ones, averaged")
     parser.add_argument("--accuracy", type=float, metavar="X", help="estimates are added until noise turns no verdict, or to this error")
     parser.add_argument("-n", "--threads", type=int, default=0, metavar="N", help="0: one for each core")

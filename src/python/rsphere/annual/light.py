@@ -18,13 +18,13 @@ from ..progress import PROGRESS
 from .passes import FACTOR, SKY, SUN_SOLID_ANGLE, LoweredPass, Pass, product
 from .shades import LOWERED, UP, states_by_rule
 from .sky import daylight_of, with_sun
-from .verdicts import FROM, UNTIL, Year, estimated
+from .verdicts import FROM, SURE, UNTIL, Year, estimated
 
 DECLINATION = 23.45  # degrees, the largest
 DIM = 0.02  # of the mean light; darker sensors are inside of something
 NEGLIGIBLE, FEW = 1e-3, 64  # light with all groups closed, by that of the scene as it is drawn; rays of a sensor by which it is known
 LEFT_OUT = 0.005  # of the sun's light may come from positions that are not computed: a seventh of them
-JUDGED = 48  # hours in which reflected sun is computed from the true position, too
+JUDGED = 48  # hours in which reflected sun is computed from the true position, too, by two estimates
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
 
 
@@ -89,6 +89,12 @@ def check_sky(files, polygons, folder):
         raise Fault("the scene has a sky, or something above all of its polygons (or a file of blinds has it): leave it out; the sky is that of the weather")
 
 
+def over_hours(values):
+    """The mean of values (sensors, hours), and its standard error by the spread between hours."""
+    hours = values.mean(axis=0)
+    return hours.mean(), hours.std() / np.sqrt(max(1, len(hours) - 1))
+
+
 def occupied_hours(rows):
     return int(((rows[:, 2] > FROM) & (rows[:, 2] < UNTIL)).sum())
 
@@ -112,16 +118,16 @@ class Light:
         self.judged = np.searchsorted(light, (np.arange(JUDGED) + 0.5) / JUDGED * light[-1]) if len(sunny) else sunny
         self.year = Year(rows[lit, :3], None, None, None, self.daylight.diffuse, self.daylight.sun, weights, len(rows),
                          occupied_hours(rows))
-        self.sums, self.counts, self.states, self.off = None, np.zeros(ESTIMATES, int), None, []
+        self.sums, self.counts, self.states, self.off, self.judged_lux = None, np.zeros(ESTIMATES, int), None, None, []
         self.idle = []  # names of groups whose blinds change nothing
         self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
         self.open_at_eyes = None  # the same, shades up
 
         self.groups, n = groups, len(groups)
 
-        def made(kind, name, text, *of, files=files, to=grid.directions, own=settings):
+        def made(kind, name, text, *of, files=files, own=settings):
             PROGRESS.advance()
-            return kind(files, text, *of, folder, name, sensors, np.array(eyes), to_sun, to, own)
+            return kind(files, text, *of, folder, name, sensors, np.array(eyes), to_sun, grid.directions, own)
 
         def lowered(name, group, closed=""):
             """The group's blinds lowered, the other groups closed."""
@@ -132,8 +138,7 @@ class Light:
             return made(Pass, name, closed + group.lowered, files=[*group.files, *files], own=own)
 
         PROGRESS.begin("Direct sun", 2 * n + 1 + (n > 1))
-        judged = np.concatenate([grid.directions, to_sun[self.judged]])
-        open_ = made(Pass, "open", "", to=judged)
+        open_ = made(Pass, "open", "")
         self.base = made(Pass, "closed", "".join(g.closed for g in groups)) if n else None
         if n and self.base.sky(0, FEW).sum() < NEGLIGIBLE * open_.sky(0, FEW).sum():
             self.base = None  # there are no other windows
@@ -143,7 +148,7 @@ class Light:
             self.base = None  # either pass has the light of the other windows
         elif n:
             closed = ["".join(g.closed for g in groups if g is not group) for group in groups]
-            self.passes = [[made(Pass, f"open{i}", closed[i], to=grid.directions if i else judged), lowered(f"lowered{i}", g, closed[i])]
+            self.passes = [[made(Pass, f"open{i}", closed[i]), lowered(f"lowered{i}", g, closed[i])]
                            for i, g in enumerate(groups)]
         self.base_direct = self.in_hours(self.base.direct) if self.base else 0
         self.direct = np.array([[self.direct_of(p) for p in states] for states in self.passes])
@@ -164,13 +169,18 @@ class Light:
         sky, sun = one.estimate(number)
         lux = product(sky, self.daylight.luminance)
         power = self.daylight.sun[self.sunny] / SUN_SOLID_ANGLE
-        reflected = self.grid.between(sun) * power
-        lux[:, self.sunny] += reflected
+        lux[:, self.sunny] += self.grid.between(sun) * power
         if one is self.passes[0][UP]:
-            off = reflected[:, self.judged] - sun[:, len(self.grid.directions) :] * power[self.judged]
-            n = len(self.year.weights)
-            self.off.append((off[:n], lux[:n, self.sunny[self.judged]]))
+            self.judged_lux.append(lux[: len(self.year.weights), self.sunny[self.judged]])
         return lux
+
+    def judge(self):
+        """Finds by how much interpolation changes the reflected sun (lx) in the judged hours: (estimates, sensors, hours)."""
+        nodes, index = np.unique(self.grid.index[self.judged], return_inverse=True)
+        to_sun = np.concatenate([self.grid.directions[nodes], self.daylight.to_sun[self.sunny[self.judged]]])
+        sun = self.passes[0][UP].reflected_together(to_sun, 2)[:, : len(self.year.weights)]
+        between = np.einsum("eshk,hk->esh", sun[:, :, index.reshape(-1, 4)], self.grid.weights[self.judged])
+        self.off = (between - sun[:, :, len(nodes) :]) * self.daylight.sun[self.sunny[self.judged]] / SUN_SOLID_ANGLE
 
     def add(self):
         """One more estimate, in Year's stacks."""
@@ -179,6 +189,8 @@ class Light:
         parts = np.array([[self.lux_of(p, number) - (base if p.has_base else 0) for p in states] for states in self.passes]) + self.direct
         base = base + self.base_direct
         if number == 0:
+            if len(self.judged) and not self.settings.radiance:
+                self.judge()
             # By the light of the sky alone: reflected sun has more rays where blinds are lowered.
             self.idle = [g.name for g, (up, lowered) in zip(self.groups, self.passes) if np.array_equal(up.first_sky, lowered.first_sky)
                          or lowered.first_sky.sum() < NEGLIGIBLE * g.transmittance * up.first_sky.sum()] if self.groups else []
@@ -217,14 +229,14 @@ class Light:
     def notes(self):
         """Sentences on errors and shades."""
         yield f"{self.counts.sum()} independent estimates; the light of the year at a sensor has a standard error of {self.error():.2%} (rms)."
-        if self.off:
-            off, lux, n = np.array([o for o, _ in self.off]), np.mean([lux for _, lux in self.off], axis=0), len(self.off)
+        if self.off is not None:
+            lux = np.maximum(1e-9, np.mean(self.judged_lux, axis=0))
             # Products of different estimates are free of the squared noise.
-            square = (off.sum(axis=0) ** 2 - (off**2).sum(axis=0)) / max(1, n * (n - 1))
-            mean = (square / np.maximum(lux, 1e-9) ** 2)[lux > 0].mean() if lux.any() else 0
-            by = f"{np.sqrt(mean):.2%} (rms)" if mean > 0 else "less than noise does"
+            square, noise = over_hours(np.prod(self.off, axis=0) / lux**2)
+            by = f"{np.sqrt(square):.2%} (rms)" if square > SURE * noise else f"less than {np.sqrt(max(0, square) + SURE * noise):.1%} (rms, twice the noise)"
+            change, noise = over_hours(self.off.mean(axis=0) / lux.mean())
             yield (f"Direct sun is exact. Reflected sun is interpolated between {len(self.grid.directions)} positions, which changes the light of an "
-                   f"hour with sun by {by}, and that of all by {off.mean(axis=0).sum() / max(lux.sum(), 1e-9):+.2%}.")
+                   f"hour with sun by {by}, and that of all by {change:+.2%} +- {noise:.2%}.")
         if self.states is None:
             yield "There are no shades: name windows by --shades, so that the rule of LM-83 lowers blinds."
         else:

@@ -20,13 +20,11 @@ std::string faultOfText(const char* text) {
 }
 
 TEST(RecordsFile, ASceneSaysThatRecordsComeLast) {
-  EXPECT_EQ(
-      faultOfText("void plastic white 0 0 5 .7 .7 .7 0 0\n"),
-      "records:1: expected 6 numbers, got \"void\"; the file of records is the last argument, after the scene");
-  EXPECT_EQ(
-      faultOfText("#?RADIANCE\noconv room.rad\n"),
-      "records:1: expected 6 numbers, got \"#?RADIANCE\"; the file of records is the last argument, after the "
-      "scene");
+  const std::string last = "; the file of records is the last argument, after the scene";
+  EXPECT_EQ(faultOfText("void plastic white 0 0 5 .7 .7 .7 0 0\n"),
+            "records:1: expected 6 numbers, got \"void\"" + last);
+  EXPECT_EQ(faultOfText("#?RADIANCE\noconv room.rad\n"),
+            "records:1: expected 6 numbers, got \"#?RADIANCE\"" + last);
 }
 
 TEST(RecordsFile, OtherFaultsOfRecordsAreLeftAsTheyAre) {
