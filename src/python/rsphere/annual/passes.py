@@ -18,6 +18,9 @@ FACTOR = 3  # of reinhart.cal: Tregenza's patches are divided into 3 x 3; light 
 SKY = "void glow rsphere_sky 0 0 4 1 1 1 0\nrsphere_sky source rsphere_dome 0 0 4 0 0 1 360\n"
 SKY_WEIGHT, SUN_WEIGHT = 0.05, 0.3  # of a ray of a sensor, below which Russian roulette ends paths: least time for equal noise
 SUN_GROUPS = 8  # of suns, each with paths of its own: the noise of a year has a seventh of the variance, in 1.3 to 1.5 times the time
+# Behind parts of blinds nearly all of the noise is in the rays from the sensors to the parts: these rays by those of a sensor, and the
+# weight at which Russian roulette ends their paths by SKY_WEIGHT; those of a sensor by the rays of a part. Least noise in two rooms.
+INSIDE, INSIDE_WEIGHT, OUTSIDE = 4, 4, 8
 MOST_AT_ONCE = 1 << 21  # coefficients
 STEPS = 0.7548776662466927, 0.5698402909980532  # of places on parts of blinds, which fill a square evenly: 1/g and 1/g^2, g^3 = g + 1
 
@@ -67,9 +70,9 @@ class Scenes:
         divisions = divisions or self.settings.divisions
         return dict(ambient_divisions=divisions, limit_weight=SKY_WEIGHT / divisions, ambient_bounces=bounces or self.settings.bounces, rotation=number)
 
-    def sun_options(self, number):
-        s = self.settings
-        return dict(ambient_divisions=s.sun_divisions, limit_weight=SUN_WEIGHT / s.sun_divisions, ambient_bounces=s.bounces, rotation=number)
+    def sun_options(self, number, share=1):
+        divisions = -(-self.settings.sun_divisions // share)
+        return dict(ambient_divisions=divisions, limit_weight=SUN_WEIGHT / divisions, ambient_bounces=self.settings.bounces, rotation=number)
 
 
 def names_of(suns):
@@ -172,7 +175,9 @@ class LoweredPass:
         """A function of what arrives at the parts, from a function of options: light of the rows."""
         n = len(self.group.parts)
         rays = self.group.rays_outwards(*np.outer(STEPS, number * n + np.arange(n))[..., None] % 1)
-        options = dict(self.scenes.sky_options(number, divisions, bounces), irradiance_at_origin=not self.settings.radiance)
+        rays_of_sensor = divisions or self.settings.divisions * (1 if self.settings.radiance else INSIDE)
+        options = dict(self.scenes.sky_options(number, rays_of_sensor, bounces), irradiance_at_origin=not self.settings.radiance)
+        options["limit_weight"] *= INSIDE_WEIGHT
         to_parts = lambda rays, **more: self.scenes.coefficients(self.inside, rays, self.group.part_names(), **options, **more)  # noqa: E731
         within = to_parts(self.sensors) * VISIBLE, to_parts(self.eyes, cs=BANDS) if len(self.eyes) else None
 
@@ -187,7 +192,8 @@ class LoweredPass:
         return light
 
     def of_sky(self, light, number, divisions=None, bounces=None):
-        return light(self.outside, ["rsphere_sky"], self.scenes.bins, self.scenes.sky_options(number, divisions, bounces))
+        of_part = divisions or -(-self.settings.divisions // OUTSIDE)
+        return light(self.outside, ["rsphere_sky"], self.scenes.bins, self.scenes.sky_options(number, of_part, bounces))
 
     def sky(self, number, divisions=None, bounces=None):
         return self.of_sky(self.through(number, divisions, bounces), number, divisions, bounces)
@@ -195,7 +201,7 @@ class LoweredPass:
     def of_suns(self, light, number, **options):
         if not len(self.reflected_from):
             return np.zeros((len(self.direct), 0))
-        return light(self.by_sun, names_of(self.reflected_from), None, dict(self.scenes.sun_options(number), **options))
+        return light(self.by_sun, names_of(self.reflected_from), None, dict(self.scenes.sun_options(number, OUTSIDE), **options))
 
     def brightest_sun(self, divisions, bounces):
         """About the most that one sun of radiance 1 gives the rows."""
