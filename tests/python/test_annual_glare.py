@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 
 import rsphere
-from rsphere.annual.glare import DIRECTIONS, PEAK, Glare, Sources, dgp, position_index, sun_through
+from rsphere.annual.glare import DIRECTIONS, PEAK, Glare, Sources, dgp, sun_through
 from rsphere.annual.light import Light
 from rsphere.annual.passes import Settings
 from rsphere.annual.shades import group_of
@@ -16,6 +16,7 @@ from rsphere.annual.sun import sun_position
 from rsphere.annual.verdicts import Year
 from rsphere.annual.weather import Weather
 from rsphere.layout.room import read_polygons
+from rsphere.photometry.position_index import position_index
 from run_here import InAFolder, built, run_here
 
 PLACE = [47.0, 15.0, 15.0]
@@ -40,7 +41,7 @@ class Parts(InAFolder):
                 warnings.simplefilter("ignore")  # the background is black
                 found = scene.glare([[0, 0, 0]], gaze).sources[0]
             self.assertEqual(len(found.surface), len(lamps))
-            np.testing.assert_allclose(position_index(found.direction, np.array(gaze) / np.linalg.norm(gaze)), found.position_index, rtol=1e-3)
+            np.testing.assert_allclose(position_index(np.array(gaze) / np.linalg.norm(gaze), found.direction), found.position_index, rtol=1e-3)
 
     def test_sources(self):
         """Bright directions near each other are one source of their mean luminance; brighter ones than 50,000 cd/m2 are others."""
@@ -56,7 +57,7 @@ class Parts(InAFolder):
                 inside = np.arccos(d @ middle / np.linalg.norm(middle)) < radius
                 luminance[inside] = value
                 mean = d[inside].sum(axis=0) / np.linalg.norm(d[inside].sum(axis=0))
-                wanted += value**2 * omega * inside.sum() / position_index(mean[None], sources.gaze)[0] ** 2
+                wanted += value**2 * omega * inside.sum() / position_index(sources.gaze, mean) ** 2
             return sources.weight(luminance), wanted
 
         np.testing.assert_allclose(*weight((3000, np.array([0.3, 1, 0.2]), 0.2)))

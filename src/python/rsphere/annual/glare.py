@@ -11,6 +11,7 @@ import numpy as np
 
 import rsphere
 
+from ..photometry.position_index import position_index
 from ..progress import PROGRESS
 from .light import Light
 from .passes import SUN_SOLID_ANGLE, VISIBLE
@@ -27,19 +28,6 @@ SELDOM = 0.05
 ESTIMATES, DIVISIONS = 2, 64  # independent ones of the pictures, and rays of each direction; only what is bright needs to be known
 FEW, SHORT = 16, 2  # rays and bounces by which directions are left out that are never bright: below half of THRESHOLD with all patches at their brightest
 SOURCE = f"EN 17037:2018+A1:2021, protection from glare: DGP in {FROM} to {UNTIL} h with shades, at the worst eye"
-
-
-def position_index(directions, gaze):
-    """How much less a source at directions (n, 3) disturbs than on the line of sight, as src/glare/position_index.h has it."""
-    up = np.array([0, 0, 1.0]) - gaze * gaze[2]
-    up /= np.linalg.norm(up)
-    ahead, above, aside = directions @ gaze, directions @ up, np.abs(directions @ np.cross(gaze, up))
-    off = np.hypot(above, aside)
-    tau = np.arctan2(aside, above)
-    t, sigma = np.degrees(tau), np.degrees(np.arctan2(off, ahead))
-    beta = np.degrees(np.arctan2(off * np.sqrt(1 + 0.3225 * np.cos(tau) ** 2), ahead))
-    guth = (35.2 - 0.31889 * t - 1.22 * np.exp(-2 * t / 9)) * sigma / 1e3 + (21 + 0.26667 * t - 0.002963 * t * t) * sigma**2 / 1e5
-    return np.minimum(16, np.exp(np.where(above >= 0, guth, 6.49 * beta / 1e3 + 21 * beta**2 / 1e5)))
 
 
 def dgp(illuminance, weight):
@@ -78,7 +66,7 @@ class Sources:
         if not light:
             return 0.0
         middles = np.array(light) / np.linalg.norm(light, axis=1)[:, None]
-        return float((np.array(square) / position_index(middles, self.gaze) ** 2).sum())
+        return float((np.array(square) / position_index(self.gaze, middles) ** 2).sum())
 
 
 def sun_through(scene, eye, to_sun):
@@ -118,7 +106,7 @@ def weights_of_hours(name, files, eye, weather, groups, folder, settings, states
         total = np.array([sources.weight(luminance[:, h]) for h in range(luminance.shape[1])])
         seen = base + sum(part[UP] if lowered is None else np.where(lowered[light.sunny, g] == LOWERED, part[-1], part[UP]) for g, part in enumerate(parts))
         bright = seen * power / SUN_SOLID_ANGLE
-        total[light.sunny] += np.where(inside & (bright >= THRESHOLD), bright**2 * SUN_SOLID_ANGLE / position_index(to_sun, sources.gaze) ** 2, 0)
+        total[light.sunny] += np.where(inside & (bright >= THRESHOLD), bright**2 * SUN_SOLID_ANGLE / position_index(sources.gaze, to_sun) ** 2, 0)
         found.append(total)
     return found if len(found) == 2 else found * 2
 
