@@ -22,10 +22,9 @@ Tracked::Tracked(const PreparedScene& prepared, std::vector<TrackedModifier> mod
   std::unordered_map<std::string_view, uint32_t> byName;
   std::vector<std::string> names;
   for (const TrackedModifier& modifier : modifiers_) {
-    byName.emplace(modifier.name, static_cast<uint32_t>(firstColumn_.size()));
+    byName.emplace(modifier.name, static_cast<uint32_t>(names.size()));
     names.push_back(modifier.name);
-    firstColumn_.push_back(columns_);
-    columns_ += modifier.bins;
+    firstColumn_.push_back(firstColumn_.back() + modifier.bins);
   }
   for (const Finish& finish : prepared.scene().surfaces.finishes()) {
     const auto found = byName.find(finish.name);

@@ -39,7 +39,7 @@ class Tracked {
 
   const std::vector<TrackedModifier>& modifiers() const { return modifiers_; }
   // A record has a column for each bin of each modifier: all bins of the first modifier, then of the next.
-  uint32_t columns() const { return columns_; }
+  uint32_t columns() const { return firstColumn_.back(); }
   uint32_t firstColumn(size_t modifier) const { return firstColumn_[modifier]; }
   // The number of values in a column: 3, or one for each band of a spectral run.
   int components() const;
@@ -63,8 +63,7 @@ class Tracked {
   std::vector<TrackedModifier> modifiers_;
   const Contributed what_;
   rad::Warn warn_;
-  std::vector<uint32_t> firstColumn_;
-  uint32_t columns_ = 0;
+  std::vector<uint32_t> firstColumn_{0};  // of each modifier, and behind the last
   static constexpr uint32_t kNotTracked = ~uint32_t{0};
   std::vector<uint32_t> modifierOf_;  // by index of a finish; kNotTracked: none
   std::vector<bool> sampledLights_;
