@@ -183,6 +183,33 @@ class Goals(unittest.TestCase):
                 self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
                 self.assertRegex(run.stderr, r"\A(rsphere-layout: warning - -o is given twice; [^\n]*\n)?rsphere-layout: fatal - [^\n]*" + words + r"[^\n]*\n\Z")
 
+    def test_order_of_files(self):
+        """Goals, tasks, a layout and the room in the wrong order, or without the option that they belong to."""
+        case = lambda name: os.path.join(LAYOUT, "cases", name)  # noqa: E731
+        goals, room, tasks, layout = case("street.txt"), case("street.rad"), case("tasks.txt"), case("layouts/street.txt")
+        for words, file, text in (
+            ((room, goals), goals, "is not a scene but holds goals; the order is: rsphere-layout goals.txt room.rad"),
+            (("--report", room, tasks), tasks, "is not a scene but holds tasks of a report; the order is: rsphere-layout --report tasks.txt room.rad"),
+            (("--judge", room, goals, layout), layout, "is not a scene but holds a layout; the order is: rsphere-layout --judge layout.txt goals.txt room.rad"),
+            (("--judge", goals, layout, room), layout, "holds a layout, not goals; the order"), (("--judge", goals, goals, room), goals, "is not a layout; the order"),
+            ((tasks, room), tasks, "holds tasks of a report, not goals; add --report"), (("--report", goals, room), goals, "holds goals, not tasks; the order"),
+            ((layout, room), layout, "holds a layout, not goals; the order"), ((room, room), room, "holds a scene, not goals; the order"),
+        ):
+            with self.subTest(words=words), tempfile.TemporaryDirectory() as folder:
+                run = run_here([built("rsphere-layout"), "-b", "0", "-o", folder, *words])
+                self.assertEqual((run.returncode, run.stdout), (1, ""), run.stderr)
+                self.assertRegex(run.stderr, rf"\Arsphere-layout: fatal - {re.escape(f'{file}: {text}')}[^\n]*\n\Z")
+
+    def test_percentages(self):
+        for options, words in (("-g", "80"), "--gap must be from 0 to 1; 80% is 0.8"), (("--report", "--accuracy", "2"), "to 0.5; 2% is 0.02"):
+            run, _ = self.run_on(GOOD, options, here=True)
+            self.assertRegex(run.stderr, rf"\Arsphere-layout: fatal - [^\n]*{words}\n\Z")
+        for line, words in (("maintenance 80", "from 0.01 to 1, not \"80\"; 80% is 0.8"), ("illuminance floor 50 uniformity 60", "60% is 0.6")):
+            run, file = self.run_on([*GOOD, line], here=True)
+            self.assertRegex(run.stderr, rf"\Arsphere-layout: fatal - {file}:4: [^\n]*{words}\n\Z")
+        run, file = self.run_on([GOOD[0] + " factor 80", *GOOD[1:]], ("-c", "0", "-d", "64", "-b", "0"))
+        self.assertIn(f"rsphere-layout: warning - {file}:1: factor 80 makes the light 80 times as bright; 80% is 0.8\n", run.stderr)
+
     def test_faults_of_the_room(self):
         """They had the name of another program in front."""
         goals = os.path.join(LAYOUT, "cases/office.txt")

@@ -349,6 +349,13 @@ class AsScene(Files):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertEqual(sorted(os.listdir(folder)), ["lamp.cal", "panel.dat"])
 
+    def test_percentage(self):
+        """-f 80 made the light 80 times as bright without a word."""
+        for factor, words in (("80", "80 times as bright; 80% is 0.8"), ("250", "250 times as bright"), ("2", None)):
+            run = run_here([built("rsphere-luminaire"), PANEL, "-o", self.folder.name, "-f", factor])
+            self.assertEqual(run.returncode, 0)
+            self.assertEqual(run.stderr, f"rsphere-luminaire: warning - -f {factor} makes the light {words}\n" if words else "")
+
     def test_folder_that_is_a_file(self):
         """Of ies2rad, -o is the name of the scene; here it was a folder of that name."""
         for name in ("panel.rad", "panel.dat", self.file("", "panel")):

@@ -79,10 +79,12 @@ class Options(argparse.ArgumentParser):
 
     def limit(self, given, *ranges):
         """Raises Fault for a number that is not within its range: name, least and most."""
+        from .fault import percent_hint
+
         for name, least, most in ranges:
             value = getattr(given, name)
             if value is not None and not least <= value <= most:
-                self.fail(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}")
+                self.fail(f"--{name.replace('_', '-')} must be from {least:g} to {most:g}{percent_hint(value, least, most)}")
 
     def error(self, message):
         self.fail(f"command line error: {message}; see -help")

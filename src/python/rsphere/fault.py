@@ -38,8 +38,20 @@ def fault_of(stderr):
     return Fault(stderr.strip().split("\n")[-1].split(": fatal - ", 1)[-1])
 
 
+def percent_hint(value, least, most):
+    """What to write instead of a percentage where a share is asked for; nothing for other numbers."""
+    return f"; {value:g}% is {value / 100:g}" if 0 <= least and most <= 1 and 1 < value <= 100 and least <= value / 100 <= most else ""
+
+
+def warn_of_factor(value, name):
+    """Warns of a factor on light that looks like a percentage."""
+    if value > MOST_FACTOR:
+        warnings.warn(f"{name} makes the light {value:g} times as bright{percent_hint(value, 0, 1)}", stacklevel=2)
+
+
 # float() also reads nan, infinity, 1_000 and digits of other scripts.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+MOST_FACTOR = 10  # on light, before a warning: percentages are larger
 LARGEST_FILE = 16 << 20  # bytes; photometric files have some 100 kB
 
 
@@ -51,7 +63,7 @@ def number(word, file, line, what, least=-1e12, most=1e12):
         raise fault(file, line, f"{what} must be a number, not {shown}{hint}")
     value = float(word)
     if not least <= value <= most:
-        raise fault(file, line, f"{what} must be from {least:g} to {most:g}, not {shown}")
+        raise fault(file, line, f"{what} must be from {least:g} to {most:g}, not {shown}{percent_hint(value, least, most)}")
     return value
 
 

@@ -7,6 +7,7 @@ import rsphere
 
 from ..command import Options
 from ..fault import Fault, make_folder
+from .kinds import explained
 from .limits import ACTIVITIES
 from .report import Report
 from .steps import Steps
@@ -65,8 +66,11 @@ def arguments():
 def main():
     given = arguments()
     make_folder(given.output)
-    steps = (Report if given.report else Steps)(rsphere, given)
     begin = time.monotonic()
-    steps.run()
+    try:
+        steps = (Report if given.report else Steps)(rsphere, given)
+        steps.run()
+    except Fault as error:
+        raise explained(given, error) from None
     print(f"{os.path.join(given.output, 'report.html' if given.report else 'page.html')}: the page ({time.monotonic() - begin:.0f} s in all)")
     return 0 if steps.met() else 2

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..fault import Fault, fault, lines_of, number, whole
+from ..fault import Fault, fault, lines_of, number, warn_of_factor, whole
 from ..photometry.intensities import Photometry
 from ..photometry.lamp_rad import UNITS, rotation, word
 from ..photometry.luminaire_file import read_luminaire
@@ -226,6 +226,7 @@ class Reader(Statements):
             raise w.fault(str(text)) from None
         found = w.options({"watts": (0.001, 1e6), "factor": (1e-6, 1e6)})
         watts, factor = found.get("watts", photometry.watts), found.get("factor", 1.0)
+        warn_of_factor(factor, f"{w.place[0]}:{w.place[1]}: factor {factor:g}")
         if photometry.radiant:
             raise w.fault(f"{photometry.file} is radiant (W/sr); goals are of light")
         if any(name == l.name for l in self.design.luminaires):

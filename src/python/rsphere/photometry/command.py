@@ -2,7 +2,7 @@
 import os
 
 from ..command import Options
-from ..fault import Fault, fault
+from ..fault import Fault, fault, warn_of_factor
 from . import radiant
 from .lamp_rad import UNITS, pattern_text, surfaces_text, word, write_data
 from .luminaire_file import read_luminaire
@@ -34,6 +34,7 @@ def main():
     form.add_argument("--svg", dest="form", action="store_const", const=svg, help="the table as a drawing")
     given = parser.parse_args()
     parser.limit(given, ("factor", 1e-6, 1e6))
+    warn_of_factor(given.factor, f"-f {given.factor:g}")
     parser.refuse(*((("units", "output"), "is that of a scene, without --ugr") if given.ugr else (("spacing", "form"), "needs --ugr")))
     photometry = read_luminaire(given.file, given.intensity, given.variant, given.emitter)
     if given.ugr:
