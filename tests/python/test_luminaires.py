@@ -3,6 +3,7 @@ import os
 import re
 import subprocess
 import unittest
+import warnings
 
 import numpy as np
 
@@ -130,7 +131,7 @@ class Floodlights(Files):
         np.testing.assert_allclose(found, [1000.5, 1083.0, 996.3, 889.1, 790.6], rtol=1e-3)
 
     def test_ugr_table(self):
-        lamp = self.file(floodlight("B", self.ALL, self.ALL, lambda ahead, *_: max(ahead, 0)), "flood.ies")
+        lamp = self.file(floodlight("B", self.ALL, self.ALL, lambda ahead, *_: 1000 * max(ahead, 0)), "flood.ies")
         run = run_here([built("rsphere-luminaire"), "--ugr", lamp])
         self.assertEqual((run.returncode, run.stdout), (1, ""))
         self.assertRegex(run.stderr, r"\Arsphere-luminaire: fatal - .*flood\.ies: is of type B, of floodlights; the UGR table is of [^\n]*\n\Z")
@@ -148,6 +149,7 @@ class Ies(Files):
             ("", 1, "no line TILT="),
             (b"IESNA\nTILT=NO\0NE\n", 2, "not a text file"),
             ("a\nb\n", 3, "no line TILT="),
+            (self.changed("TILT=NONE", "TILT=INCLUDE\n1\n2\n0 90\n100 95"), 6, "tilt factor 1 of 2 must be from 0 to 5"),
             (self.changed("1000 1.5", "nan 1.5"), 3, 'lumens of a lamp must be a number, not "nan"'),
             (self.changed("1000 1.5", "1e999 1.5"), 3, "must be from"),
             (self.changed("1000 1.5", "0 1.5"), 3, "above 0"),
@@ -198,6 +200,8 @@ class Ies(Files):
         """Whatever a word is replaced by: a fault with a line, or a luminaire of finite intensities; nothing else."""
         words = re.split(r"(\s+)", BOX)
         refused = 0
+        self.enterContext(warnings.catch_warnings())
+        warnings.simplefilter("ignore")  # of so many lumens per watt
         for i in range(0, len(words), 2):
             for other in ("x", "-1", "1e300", "0", "99999999", ""):
                 path = self.file("".join([*words[:i], other, *words[i + 1 :]]))
@@ -282,6 +286,26 @@ class Eulumdat(Files):
         self.assertAlmostEqual(float(lamp.intensity(np.array([0, -s, -s]))), 60 * 4, places=9)
         np.testing.assert_allclose(lamp.size[:2], (.29, 1.19))
         self.assertEqual(lamp.watts, 36)
+
+
+class Doubts(Files):
+    def test_units(self):
+        """Lengths in other units, a watt or a factor that is a thousand times too large: such files were read without a word."""
+        ies = lambda before, after: (BOX.replace(before, after, 1), "lamp.ies")  # noqa: E731
+        for (text, name), words in (
+            (ies("1 1 1 2 .3", "1 1 1 200 30"), r"the luminous opening is 61 m long; are its lengths"), (ies("1 70", "1 70000"), r"945\.6 lm of 70000 W are 0\.0135 lm/W"),
+            (ies("1000 1.5", "1000 150"), r"1\.35e\+03 lm/W; are both right"), ((eulumdat(L16="1.19", L17=".29"), "lamp.ldt"), r"is 0\.00119 m long"),
+            ((eulumdat(L16="1", L17="0"), "lamp.ldt"), None), ((eulumdat(L29="4"), "lamp.ldt"), r"1\.001 lm of 36 W"), (ies("1 70", "1 0"), None), ((BOX, "lamp.ies"), None),
+        ):
+            with self.subTest(words=words):
+                path = self.file(text, name)
+                if words:
+                    with self.assertWarnsRegex(UserWarning, rf"\A{re.escape(path)}: .*({words})"):
+                        read_luminaire(path)
+                else:
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("error")
+                        read_luminaire(path)
 
 
 class AsScene(Files):

@@ -63,9 +63,11 @@ class Product:
 
     def named(self, tag, name, whose):
         """The element of a tag and an id. whose: the element that refers to it, or None."""
-        for element in self.all(tag):
-            if element.get("id") == name:
-                return element
+        found = [element for element in self.all(tag) if element.get("id") == name]
+        if len(found) > 1:
+            raise found[1].fault(self.file, f'there are two {tag} "{str(name)[:40]}"; take one out')
+        if found:
+            return found[0]
         known = ", ".join(sorted(str(e.get("id")) for e in self.all(tag))[:12]) or "none"
         wanted = f", which this {whose.tag} refers to" if whose is not None else ""
         raise fault(self.file, None if whose is None else whose.line, f'there is no {tag} "{str(name)[:40]}"{wanted}; there is {known}')

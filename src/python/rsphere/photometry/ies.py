@@ -8,6 +8,7 @@ from .intensities import Photometry, checked_angles, checked_candela, unfolded
 from .radiant import UNITS, unit_in
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
+MOST_TILT_FACTOR = 5  # lamps that are tilted have about as much light; percentages would be larger
 FOOT = 0.3048
 PLANES = 2.0  # degrees between the C planes that stand for types A and B, and at most between their angles of gamma
 PARTS = 4  # of gamma between the angles of types A and B: a beam of 15 degrees in steps of 2.5 has its flux within .1%
@@ -56,7 +57,7 @@ def read_tilt(words):
     count = words.whole("the number of tilt angles", 1, MOST_ANGLES)
     angles = words.numbers(count, "tilt angle", 0, 180)
     checked_angles(angles, words.file, words.line, "tilt angles")
-    return tuple(angles), tuple(words.numbers(count, "tilt factor", 0, 100))
+    return tuple(angles), tuple(words.numbers(count, "tilt factor", 0, MOST_TILT_FACTOR))
 
 
 def tilt_of(file, value, words):

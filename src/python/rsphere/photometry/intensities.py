@@ -11,6 +11,9 @@ from ..fault import fault
 
 
 TINY = 0.0005  # m; degrees
+OPENING = 0.002, 8.0  # m: longest sides of luminous openings; others are most likely in other units
+POINT = 0.001  # m: the side that stands for a point in many files
+EFFICACY = 0.1, 500.0  # lm/W: candles have .3, and no lamp has more than 350
 LARGEST = 1e-6, 1e9  # cd, the least and the most that the largest intensity of a luminaire can be: searchlights have 1e9
 
 
@@ -63,6 +66,14 @@ class Photometry:
         curve = np.interp(np.degrees(fine), self.gammas, mean, left=0, right=0)
         weighed = curve * np.sin(fine)
         return np.pi * ((weighed[1:] + weighed[:-1]) * np.diff(fine)).sum()
+
+    def doubts(self):
+        """What is so unlikely that a number or its unit may be wrong; the file holds nevertheless."""
+        longest, lumens = max(self.size), self.lumens()
+        if abs(longest - POINT) > 1e-6 and not OPENING[0] <= longest <= OPENING[1]:
+            yield f"the luminous opening is {longest:.3g} m long; are its lengths in the unit that the file is to have?"
+        if not self.radiant and self.watts > 0 and not EFFICACY[0] <= lumens / self.watts <= EFFICACY[1]:
+            yield f"{lumens:.4g} lm of {self.watts:g} W are {lumens / self.watts:.3g} lm/W; are both right?"
 
     def tilt_factor(self, angle):
         """The factor on the light of a luminaire whose main direction is turned by an angle (degrees) from -z."""

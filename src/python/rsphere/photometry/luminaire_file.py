@@ -1,4 +1,6 @@
 """Reads photometric files of all formats."""
+import warnings
+
 from ..fault import fault, lines_of
 from .eulumdat import read_eulumdat
 from .gldf import read_gldf
@@ -18,6 +20,14 @@ def begins(file, count):
 
 
 def read_luminaire(file, intensity=None, variant=None, emitter=None):
+    """The Photometry of a file, as read_any() has it. Warns of what is unlikely in it."""
+    read = read_any(file, intensity, variant, emitter)
+    for doubt in read.doubts():
+        warnings.warn(f"{file}: {doubt}", stacklevel=2)
+    return read
+
+
+def read_any(file, intensity, variant, emitter):
     """The Photometry of a file: GLDF if it is a zip, TM-33 if it is XML, EULUMDAT if its name ends with .ldt, or IES if it has a line TILT=.
 
     intensity: the unit of an IES file that does not say it (cd, W/sr, mW/sr, uW/sr). variant, emitter: ids in a GLDF file.

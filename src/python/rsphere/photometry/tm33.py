@@ -35,6 +35,8 @@ def read_tm33(file):
         where = emitters[1] if emitters else root
         raise where.fault(file, f"there are {len(emitters)} emitters; one is read: give each a file of its own")
     emitter = emitters[0]
+    if number_of(emitter, "Quantity", file, 0, 1e6, 1.0) != 1:
+        raise emitter.find("Quantity").fault(file, "the luminaire has several emitters of this kind; one is read: give it the light of all, and Quantity 1")
     element, radiant = next(((emitter.find(path), radiant) for path, radiant in INTENSITIES if emitter.find(path) is not None), (None, False))
     if element is None:
         raise emitter.fault(file, f"the emitter has neither {INTENSITIES[0][0]} nor {INTENSITIES[1][0]}; its intensities are needed")

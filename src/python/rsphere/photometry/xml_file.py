@@ -60,6 +60,8 @@ def text_of(element, path, default=""):
 def number_of(element, path, file, least, most, default=None):
     """The number of an element inside of another. Raises Fault if it is none, or not there although there is no default."""
     text, found = text_of(element, path), element.find(path)
+    if len(element.findall(path)) > 1:
+        raise element.findall(path)[1].fault(file, f"{element.tag} has two {path}; take one out")
     if not text and default is not None:
         return default
     if found is None:
