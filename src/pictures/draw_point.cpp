@@ -24,6 +24,9 @@ const float kSameNormal = 1 - 2 * OfPictures::kNear * OfPictures::kNear;
 
 const Smoothing kOfIndirect{OfPictures::kIndirectPasses, OfPictures::kFinePasses, OfPictures::kSameLight,
                             kSameNormal, OfPictures::kNear};
+// Images in panes and mirrors are gathered with few rays at each pixel.
+const Smoothing kOfImages{OfPictures::kIndirectPasses, OfPictures::kFinePasses, OfPictures::kSameLight,
+                          OfPictures::kSameGlossNormal, OfPictures::kNear};
 const Smoothing kOfGloss{OfPictures::kFinePasses, 0, 0, OfPictures::kSameGlossNormal, OfPictures::kNear};
 // The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
 // they differ visibly from their neighbors.
@@ -87,8 +90,8 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
 
 // All pixels of a picture, by component.
 struct Pixels {
-  SeenSurfaces seen;
-  PixelLight indirect, gloss, direct;
+  SeenSurfaces seen, mirrors;
+  PixelLight indirect, gloss, direct, mirrored;
   // The light that the ray through the middle of a pixel finds.
   struct Middle {
     V3d rest{0, 0, 0}, pattern{1, 1, 1};
@@ -97,9 +100,10 @@ struct Pixels {
   };
   std::vector<Middle> middles;
 
-  explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}} {
+  explicit Pixels(const PixelMap& map) : seen{map.width(), map.height(), map.wraps(), {}}, mirrors(seen) {
     seen.pixels.resize(map.count());
-    for (PixelLight* component : {&indirect, &gloss, &direct}) {
+    mirrors.pixels.resize(map.count());
+    for (PixelLight* component : {&indirect, &gloss, &direct, &mirrored}) {
       component->light.assign(map.count(), Imath::V3f(0, 0, 0));
       component->known.assign(map.count(), 0);
     }
@@ -114,6 +118,9 @@ struct Pixels {
     gloss.known[pixel] = sample.sharesGloss ? 1 : 0;
     direct.light[pixel] = Imath::V3f(sample.direct);
     direct.known[pixel] = sample.sharesDirect ? 1 : 0;
+    mirrors.pixels[pixel] = sample.mirror;
+    mirrored.light[pixel] = Imath::V3f(sample.mirrored);
+    mirrored.known[pixel] = sample.mirror.material != kNone ? 1 : 0;
     middles[pixel] = {sample.rest,        sample.pattern,      direct.light[pixel],
                       sample.sharesGloss, sample.sharesDirect, true};
   }
@@ -122,7 +129,8 @@ struct Pixels {
     V3d value = sample.rest + sample.direct;
     if (sample.seen.material != kNone) value += sample.pattern * V3d(indirect.light[pixel]);
     if (sample.sharesGloss) value += V3d(gloss.light[pixel]);
-    return value;
+    const bool sameImage = mayShare(sample.mirror, mirrors.pixels[pixel], kOfImages);
+    return value + (sameImage ? V3d(mirrored.light[pixel]) : sample.mirrored);
   }
   // The sample of the ray through the middle of the pixel.
   PixelSample own(size_t pixel) const {
@@ -133,6 +141,8 @@ struct Pixels {
     own.pattern = middle.pattern;
     own.seen.material = seen.pixels[pixel].material;
     own.sharesGloss = middle.sharesGloss;
+    own.mirror = mirrors.pixels[pixel];
+    own.mirrored = V3d(mirrored.light[pixel]);
     return own;
   }
   V3d value(size_t pixel) const {
@@ -228,6 +238,7 @@ class Painter {
     Pixels pixels = tracePixels();
     smoothLight(pixels.seen, kOfIndirect, pixels.indirect);
     smoothLight(pixels.seen, kOfGloss, pixels.gloss);
+    smoothLight(pixels.mirrors, kOfImages, pixels.mirrored);
     gatherWhereUnknown(pixels);
     repeatDirect(pixels);
     smoothDirect(pixels);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "base/colorimetry.h"
+#include "base/random.h"
 #include "pictures/tuning.h"
 #include "rays/ray_functions.h"
 
@@ -41,6 +42,27 @@ int panesBefore(const RayEnd& end, const Scene& scene) {
   return panes;
 }
 
+// Which surfaces sharp reflections and refractions show to the eye, and where the first of them begins.
+struct Images {
+  SurfaceHit mirror;  // surface kNone: none
+  double distance = 0;
+  uint64_t hash = 0;
+};
+
+// Adds the image of a surface that gathers, seen by a path without rough reflections.
+void addImage(const RayEnd& shown, const Scene& scene, Images& images) {
+  uint64_t hash = 0;
+  const RayEnd* mirror = &shown;
+  for (const RayEnd* at = &shown; at; at = at->context.parent) {
+    hash = mixBits(hash + 4 * static_cast<uint64_t>(at->hit.surface.number() + 1) + at->context.kind);
+    if (at->context.parent && panesBefore(*at, scene) < 0) mirror = at->context.parent;
+  }
+  images.hash += hash;
+  if (images.mirror.surface != kNone) return;
+  images.mirror = mirror->hit;
+  images.distance = mirror->context.pathLength + mirror->hit.length;
+}
+
 }  // namespace
 
 PixelTracer::PixelTracer(const V3d& point, const Transport& transport)
@@ -67,12 +89,28 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   double distance = 0;
   Radiance value, indirect, gloss, brought;  // brought: light of all rays that the surface sends out
   const RayEnd* from = nullptr;
+  Images images;
+  Radiance mirrored;
+  const RayEnd* imaged = nullptr;
   // Children are observed before their parents: the first straight ray to finish is the one that ends at the
   // surface, and the rays of the surface are the ones just before it.
+  // Whether sharp reflections or refractions show a surface without a pattern.
+  const auto isImage = [&](const RayEnd& end) {
+    constexpr unsigned kSharp = kPrimary | kReflected | kRefracted | kTransmitted;
+    return !(end.context.kinds & ~kSharp) && end.hit.pattern == Color(1, 1, 1) &&
+           panesBefore(end, prepared_.scene()) < 0;
+  };
   const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
-    if (shown.surface != kNone) return;
     const PathContext& ray = end.context;
     const Radiance arriving = result.value * ray.contribution;
+    if (ray.kind & kAmbient && isImage(*ray.parent)) {
+      mirrored += arriving;
+      if (ray.parent != imaged &&
+          maxChannel(ray.parent->context.contribution) > tuning::Pictures::kFaintImage)
+        addImage(*ray.parent, prepared_.scene(), images);
+      imaged = ray.parent;
+    }
+    if (shown.surface != kNone) return;
     if (const int passed = panesBefore(end, prepared_.scene()); passed >= 0) {
       if (end.hit.surface == kNone) return;
       shown = end.hit;
@@ -99,6 +137,19 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   sample.shown = ray.shown;
   sample.rest = shownRgb(ray.value.color, sampling);
   sample.pattern = shownRgb(shown.pattern, sampling);
+  if (separates_ && images.mirror.surface != kNone) {
+    sample.mirrored = shownRgb(mirrored.color, sampling);
+    sample.rest -= sample.mirrored;
+    const ModifierId of = prepared_.scene().surfaces[images.mirror.surface].material;
+    sample.mirror = {of,
+                     Imath::V3f(images.distance * direction),
+                     Imath::V3f(images.mirror.normal),
+                     static_cast<float>(images.distance),
+                     0,
+                     static_cast<uint32_t>(images.hash)};
+  } else {
+    mirrored = {};
+  }
   // Indirect light is divided by the pattern, which is impossible if the pattern is black in a channel.
   const V3d& pattern = sample.pattern;
   if (shown.surface == kNone || !separates_ || !(std::min({pattern.x, pattern.y, pattern.z}) > 0))
@@ -110,7 +161,7 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   sample.sharesDirect = sharesDirect(*material, shown);
   if (!sample.sharesGloss) gloss = {};
   const Radiance direct = sample.sharesDirect ? value - brought : Radiance();
-  sample.rest = shownRgb((ray.value - indirect - gloss - direct).color, sampling);
+  sample.rest = shownRgb((ray.value - indirect - gloss - direct - mirrored).color, sampling);
   sample.indirect = shownRgb(indirect.color, sampling) / pattern;
   sample.gloss = shownRgb(gloss.color, sampling);
   sample.direct = shownRgb(direct.color, sampling);

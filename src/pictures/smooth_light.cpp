@@ -48,7 +48,8 @@ Average averageAround(const SeenSurfaces& seen, const Smoothing& smoothing, cons
 }  // namespace
 
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing) {
-  if (a.material != b.material || a.panes != b.panes || a.normal.dot(b.normal) < smoothing.sameNormal)
+  if (a.material != b.material || a.panes != b.panes || a.images != b.images ||
+      a.normal.dot(b.normal) < smoothing.sameNormal)
     return false;
   const Imath::V3f apart = b.point - a.point;
   const float square = apart.length2(), rise = apart.dot(a.normal);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "scene/scene.h"
@@ -9,8 +10,9 @@ namespace rsphere {
 struct SeenSurface {
   ModifierId material;  // kNone: the pixel shares no light with others
   Imath::V3f point{0, 0, 0}, normal{0, 0, 0};
-  float distance = 0;  // from the eye
-  int panes = 0;       // of glass in front of it
+  float distance = 0;   // from the eye
+  int panes = 0;        // of glass in front of it
+  uint32_t images = 0;  // if it is a mirror: which surfaces it shows, as a hash
 };
 
 struct SeenSurfaces {

@@ -40,6 +40,9 @@ struct Pictures {
   // direct light: derived. The noise after the first passes is at most 5%, so that this is two standard
   // deviations of the difference of two pixels, 2 x 2^1/2 x 5%.
   static constexpr float kSameLight = .14f;
+  // Images in mirrors that contribute less than this fraction to a pixel do not decide which pixels share the
+  // indirect light of images: derived. Paths that weak exist at random, because -lw ends most of them.
+  static constexpr double kFaintImage = 1e-3;
   // Number of times that the direct light of a noisy pixel in a soft shadow is traced again: chosen by
   // experiment. The picture of examples/idea takes 10% longer, and the edge of its shadow becomes smooth.
   static constexpr int kRepeats = 8;

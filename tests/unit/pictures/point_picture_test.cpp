@@ -280,10 +280,11 @@ TEST(PointPicture, GlossyDesksHaveNoSpeckles) {
 }
 
 // The rms of what pixels differ by from the mean of their neighbors, as a share of the mean of all.
-double grainOf(const std::function<double(int column, int row)>& at, int firstRow, int lastRow) {
+double grainOf(const std::function<double(int column, int row)>& at, int firstRow, int lastRow,
+               int firstColumn = 1, int lastColumn = 255) {
   double squares = 0, sum = 0, count = 0;
   for (int row = firstRow; row < lastRow; ++row)
-    for (int column = 1; column < 255; ++column) {
+    for (int column = firstColumn; column < lastColumn; ++column) {
       const double around =
           (at(column - 1, row) + at(column + 1, row) + at(column, row - 1) + at(column, row + 1)) / 4;
       squares += (at(column, row) - around) * (at(column, row) - around);
@@ -300,6 +301,33 @@ TEST(PointPicture, WallsBehindGlassHaveNoGrain) {
                     V3d(.2, -.3, .1), 1, Projection::latitudeLongitude, 256);
   const auto at = [&](int column, int row) { return drawn.at(static_cast<size_t>(256 * row + column)); };
   EXPECT_LT(grainOf(at, 10, 45), .02);
+}
+
+// The wall that a pane or a mirror shows was gathered with few rays at each pixel, and not shared.
+TEST(PointPicture, ImagesInPanesAndMirrorsHaveNoGrain) {
+  for (const char* const mirror :
+       {"void glass pane 0 0 3 .9 .9 .9\n", "void metal pane 0 0 5 .6 .6 .6 1 0\n"}) {
+    const Drawn drawn(room(std::string("window ring w 0 0 8 -2.8 0 0 1 0 0 0 .3\n") + mirror +
+                           "pane polygon p 0 0 12 1 -2 -2 1 2 -2 1 2 2 1 -2 2\n"),
+                      V3d(.2, -.3, .1), 1, Projection::latitudeLongitude, 256);
+    PathTracer rays = drawn.pictures.pathTracer({FirstBounce::gathered});
+    const auto at = [&](int column, int row) { return drawn.at(static_cast<size_t>(256 * row + column)); };
+    const auto ofRays = [&](int column, int row) {
+      const auto direction = drawn.map.direction(column + .5, row + .5);
+      const auto seed = mixBits(static_cast<uint64_t>(256 * row + column));
+      return rays.trace(V3d(.2, -.3, .1), *direction, 0, seed).value.color.y;
+    };
+    // Above the window's image.
+    EXPECT_LT(grainOf(at, 30, 44, 176, 208), .01) << mirror;
+    EXPECT_GT(grainOf(ofRays, 30, 44, 176, 208), .03) << "single rays would pass";
+    double drawnSum = 0, raySum = 0;
+    for (int row = 30; row < 44; ++row)
+      for (int column = 176; column < 208; ++column) {
+        drawnSum += at(column, row);
+        raySum += ofRays(column, row);
+      }
+    EXPECT_NEAR(drawnSum / raySum, 1, .03) << mirror;
+  }
 }
 
 // Shadow rays to random places of a lamp made every wall and every soft shadow grainy.
