@@ -307,7 +307,7 @@ TEST(PointPicture, WallsBehindGlassHaveNoGrain) {
 TEST(PointPicture, ImagesInPanesAndMirrorsHaveNoGrain) {
   for (const char* const mirror :
        {"void glass pane 0 0 3 .9 .9 .9\n", "void metal pane 0 0 5 .6 .6 .6 1 0\n"}) {
-    const Drawn drawn(room(std::string("window ring w 0 0 8 -2.8 0 0 1 0 0 0 .3\n") + mirror +
+    const Drawn drawn(room(std::string("window ring w 0 0 8 -2.5 0 0 1 0 0 0 1.2\n") + mirror +
                            "pane polygon p 0 0 12 1 -2 -2 1 2 -2 1 2 2 1 -2 2\n"),
                       V3d(.2, -.3, .1), 1, Projection::latitudeLongitude, 256);
     PathTracer rays = drawn.pictures.pathTracer({FirstBounce::gathered});
