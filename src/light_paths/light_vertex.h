@@ -13,8 +13,9 @@ struct LightVertex {
     unweighed,          // directly from a source for which the density of shadow rays is unknown
     diffuse,            // directly from a diffuse reflection
     highlight,          // directly from a source's highlight on a rough surface
-    // From a diffuse reflection or from beyond a portal, by sharp reflections at panes and mirrors. The
-    // diffuse surface did not receive the light directly from a highlight or from any other sharp reflection.
+    // From a diffuse reflection or from beyond a portal, by sharp reflections at panes, mirrors and polished
+    // surfaces. The diffuse surface did not receive the light directly from a highlight or from any other
+    // sharp reflection.
     mirrored,
     sharp  // from any other highlight, or from any other sharp reflection
   };

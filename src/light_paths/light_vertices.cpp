@@ -351,13 +351,13 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
 }
 
 bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interaction& view, double scale) {
-  const bool isHighlight = past_.fromSource && s.sharp.count == 0;
-  past_.way = isHighlight ? LightVertex::highlight : LightVertex::sharp;
-  if (isHighlight) ++past_.bounces;  // a highlight is indirect light at the next surface
   if (s.sharp.count > 0) {
     beam_.direction = s.sharp.path[0].direction;
     beam_.power = beam_.power * s.sharp.path[0].coefficient * scale;
+    reflectedSharply();
   } else {
+    past_.way = past_.fromSource ? LightVertex::highlight : LightVertex::sharp;
+    if (past_.fromSource) ++past_.bounces;  // a highlight is indirect light at the next surface
     const double u1 = random_.uniform(), u2 = random_.uniform();
     V3d next;
     // The lobe is reciprocal, so that it can be sampled from this side.

@@ -87,7 +87,7 @@ PlainSurfaces::PlainSurfaces(const PreparedScene& prepared, Portals portals)
     const Mirror* const mirror = plain ? std::get_if<Mirror>(material) : nullptr;
     if (mirror && mirror->alternate.kind == Alternate::Kind::none) f.mirror = mirror;
     hasPanes_ = hasPanes_ || f.pane;
-    coverage_.mirrors = coverage_.mirrors || f.pane || f.mirror;
+    coverage_.mirrors = coverage_.mirrors || f.pane || f.mirror || (f.opaque && isPolished(*f.opaque));
     finishes_.push_back(f);
   }
   placePortals();

@@ -69,7 +69,7 @@ class PlainSurfaces {
     bool mostlyUnknown = false;
     // Shadow rays to a known source may also carry light that passes unknown surfaces.
     bool passUnknown = false;
-    bool mirrors = false;  // panes or mirrors reflect light between known surfaces
+    bool mirrors = false;  // panes, mirrors or polished surfaces reflect light between known surfaces
   };
   const Coverage& coverage() const { return coverage_; }
 
@@ -142,6 +142,10 @@ Interaction plainInteraction(const V3d& direction, const V3d& normal, bool flat,
 // Whether a material has rough highlights of sources. They are sampled together with its diffuse light.
 inline bool hasRoughHighlight(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
+}
+
+inline bool isPolished(const Opaque& material) {
+  return material.specularity > kNegligible && material.roughness * material.roughness <= kNegligible;
 }
 
 // Parts of the reflected direct light at a place.

@@ -357,7 +357,8 @@ Radiance VertexLight::diffusedAt(const PlainPlace& there, const Coefficient& sha
   return sum * share;
 }
 
-// The mirrored light (LightVertex::mirrored) that arrives, by one ray that panes and mirrors reflect.
+// The mirrored light (LightVertex::mirrored) that arrives, by one ray that panes, mirrors and polished
+// surfaces reflect.
 Radiance VertexLight::ofMirrored(const PlainPlace& at, const Indirect& how, Random& random,
                                  Scratch& scratch) const {
   constexpr int kMostHits = 32;  // for mirrors that face each other
@@ -377,12 +378,30 @@ Radiance VertexLight::ofMirrored(const PlainPlace& at, const Indirect& how, Rand
       return isMirrored ? passed * (*how.outdoors)(origin, direction, bounces, random) : Radiance();
     }
     if (!met.goesOn) {
-      if (!isMirrored || met.hit.surface == kNone) return {};
+      if (met.hit.surface == kNone) return {};
+      const Opaque* const material = surfaces_.finishOf(met.hit.surface).opaque;
+      if (!material || !(isMirrored || isPolished(*material))) return {};
       const PlainPlace there = surfaces_.placeOf(origin - met.distance * direction, direction,
                                                  {met.hit, met.distance, passed}, scratch.functions);
       if (!there.material) return {};
+      const Scattering s =
+          scatter(*there.material, plainInteraction(direction, there.normal, there.flat, there.pattern), 0);
+      double stays = 1;  // probability
+      if (s.sharp.count > 0) {
+        const Coefficient& gloss = s.sharp.path[0].coefficient;
+        const double reflected = isMirrored ? std::min(maxChannel(gloss), 1.) : 1;
+        if (random.uniform() < reflected) {
+          passed *= gloss / reflected;
+          isMirrored = true;
+          direction = s.sharp.path[0].direction;
+          start = met.hit.surface;
+          continue;
+        }
+        stays = 1 - reflected;
+      }
+      if (!isMirrored) return {};
       const Coefficient share(passed.color * there.color() *
-                              diffuseShare(*there.material, -there.normal.dot(direction)));
+                              (diffuseShare(*there.material, -there.normal.dot(direction)) / stays));
       Radiance sum = diffusedAt(there, share, how, random, scratch);
       if (how.bounces > 1)
         sum += ofMirrored(there, {how.bounces - 1, 0, how.record, how.scale * share, how.outdoors}, random,

@@ -250,6 +250,11 @@ INSTANTIATE_TEST_SUITE_P(
                         "m polygon q 0 0 12 0 .1 0 0 .1 3 4 .1 3 4 .1 0\n"
                         "wall polygon board 0 0 12 1.5 .1 1.12 3.5 .1 1.12 3.5 1.1 1.12 1.5 1.1 1.12\n",
             .point = V3d(2.5, .4, 1.115)},
+        Way{.name = "CloseToLightOfPolishedMetal",
+            .surfaces = "void metal m 0 0 5 .9 .9 .9 1 0\n"
+                        "m polygon q 0 0 12 0 .1 0 0 .1 3 4 .1 3 4 .1 0\n"
+                        "wall polygon board 0 0 12 1.5 .1 1.12 3.5 .1 1.12 3.5 1.1 1.12 1.5 1.1 1.12\n",
+            .point = V3d(2.5, .4, 1.115)},
         Way{"NearCorner", "wall polygon low 0 0 12 2.3 1 1.09 2.7 1 1.09 2.7 1.4 1.09 2.3 1.4 1.09\n"},
         Way{"Ball", "lamp sphere bulb 0 0 4 3 2 1.5 .1\n"},
         Way{"Ring", "lamp ring q 0 0 8 3 2 2.5 0 0 -1 0 .6\n"},
