@@ -432,11 +432,15 @@ NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, u
   }
   // A twentieth more than expected, so that hardly any list grows while all paths are sent.
   const double times = 1.05 * static_cast<double>(paths) / static_cast<double>(std::max(tried, size_t(1)));
+  const double mirrored = times * static_cast<double>(visible_.count(LightVertex::mirrored));
   clearFor(times, all_);
   clearFor(times, arriving_);
   visible_.clearFor(times);
   const double meanLength = met > 0 ? sum / static_cast<double>(met) : 1;
-  return {tuning::LightVertices::kWidth * meanLength, meanLength};
+  const double width = tuning::LightVertices::kWidth * meanLength;
+  // The mean distance between the vertices of mirrored light, if they lay on a sphere of the mean length.
+  const double apart = meanLength * std::sqrt(4 * kPi / mirrored);
+  return {width, meanLength, std::min(width, apart)};
 }
 
 void LightVertices::sort() {

@@ -29,14 +29,16 @@ namespace rsphere {
 // The light between two diffuse surfaces is divided by their distance (world units): rays estimate the light
 // of near surfaces, light vertices the light of far ones.
 struct NearLight {
-  double width = 0;       // distance at which share() is 1/2
-  double meanLength = 1;  // of light paths from the sources to the first surfaces
+  double width = 0;          // distance at which share() is 1/2
+  double meanLength = 1;     // of light paths from the sources to the first surfaces
+  double mirroredWidth = 0;  // distance at which joinedOfMirrored() is 1/2: of mirrored vertices' spacing
 
   // The fraction that rays estimate at this distance, because vertices would make it too noisy. It falls with
   // the fourth power of the distance: far away, few rays meet bright surfaces, and they would be noisier than
   // vertices.
-  double share(double distance) const {
-    const double ratio = distance * distance / (width * width);
+  double share(double distance) const { return shareAt(distance, width); }
+  static double shareAt(double distance, double half) {
+    const double ratio = distance * distance / (half * half);
     return 1 / (1 + ratio * ratio);
   }
   // The distance at which share() has this value, which is above 0.
@@ -46,10 +48,12 @@ struct NearLight {
   // use the bounded kernel of light between diffuse surfaces.
   double closeShare(double distance, double fromEye) const;
   // The fraction of mirrored light (LightVertex::mirrored) at a place that joins of the place with the eye
-  // estimate; rays from the place estimate the rest. The vertices of this light are few. Close to a surface,
-  // most answers would find none of them nearby, and lack its light: 2 cm below a light shelf, the light that
-  // a window reflects onto the shelf, 7% of all, was missing in eleven of twelve answers.
-  double joinedOfMirrored(double fromEye) const { return 1 - share(fromEye); }
+  // estimate; rays from the place estimate the rest. Closer to a surface than the vertices of this light are
+  // to each other, most answers would find none of them nearby, and lack its light: 2 cm below a light shelf,
+  // the light that a window reflects onto the shelf, 7% of all, was missing in eleven of twelve answers.
+  // Farther away, rays would be noisier: with the half at `width`, answers beside a wall of mirror have up to
+  // four times the error (tests/bench/rtrace/runs/2026-11-29-rooms.txt).
+  double joinedOfMirrored(double fromEye) const { return 1 - shareAt(fromEye, mirroredWidth); }
 };
 
 // A vertex that may be connected directly to the eye, which is the point whose answer is computed.
@@ -76,6 +80,10 @@ struct VisibleVertex {
 class VisibleVertices {
  public:
   void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
+  size_t count(LightVertex::Way way) const {
+    return static_cast<size_t>(
+        std::ranges::count_if(all_, [&](const VisibleVertex& v) { return v.vertex.way == way; }));
+  }
   // Removes all vertices, and reserves memory for `times` as many.
   void clearFor(double times);
   // Call this once, after the last vertex has been added.
