@@ -373,6 +373,13 @@ class AsScene(Files):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertEqual(sorted(os.listdir(folder)), ["lamp.cal", "panel.dat"])
 
+    def test_full_disk(self):
+        """It was a traceback."""
+        with open("/dev/full", "w", encoding="ascii") as full:
+            run = subprocess.run([built("rsphere-luminaire"), PANEL, "-o", self.folder.name], stdout=full,
+                                 stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr), (2, "rsphere-luminaire: system - write error: No space left on device\n"))
+
     def test_percentage(self):
         """-f 80 made the light 80 times as bright without a word."""
         for factor, words in (("80", "80 times as bright; 80% is 0.8"), ("250", "250 times as bright"), ("2", None)):

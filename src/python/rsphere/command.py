@@ -102,6 +102,11 @@ def need(module, package):
         sys.exit(f"{os.path.basename(sys.argv[0])}: fatal - Python's module {module} is missing; on Debian: apt install {package}")
 
 
+def discard_output():
+    """What Python would write when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def run_program(main):
     """Runs main(), and prints a fault as one line. Warnings of the module rsphere are one line, too."""
     from . import Error
@@ -133,8 +138,13 @@ def run_program(main):
         print(f"{name}: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what Python writes when it ends
+        discard_output()
         return 1
+    except OSError as error:  # a full disk
+        PROGRESS.clear()
+        print(f"{name}: system - {error.filename or 'write error'}: {error.strerror}", file=sys.stderr)
+        discard_output()
+        return 2
     finally:
         PROGRESS.clear()
 
