@@ -58,14 +58,20 @@ class Options(argparse.ArgumentParser):
         return "\n".join([*lines, "", self.text]).rstrip() + "\n"
 
     def parse_known_args(self, args=None, namespace=None):
+        self.refuse_unknown(sys.argv[1:] if args is None else args)
+        return super().parse_known_args(args, namespace)
+
+    def parse_intermixed_args(self, args=None, namespace=None):  # calls parse_known_args() only before Python 3.13
+        self.refuse_unknown(sys.argv[1:] if args is None else args)
+        return super().parse_intermixed_args(args, namespace)
+
+    def refuse_unknown(self, args):
         """Refuses unknown options at once, with the nearest name: argparse would read -time as -t ime."""
-        args = sys.argv[1:] if args is None else args
         for name in (word.split("=")[0] for word in (args[: args.index("--")] if "--" in args else args)):
             if re.match("--.|-[A-Za-z]{2}", name) and name not in self._option_string_actions:
                 near = difflib.get_close_matches(name.lstrip("-"), [known.lstrip("-") for known in self._option_string_actions], 1, 0.65)
                 hint = "".join(f'; the nearest is "{known}"' for known in self._option_string_actions if near == [known.lstrip("-")])
                 self.fail(f"command line error at '{name}': there is no such option{hint}; see -help")
-        return super().parse_known_args(args, namespace)
 
     def note(self, action, value, option):
         if action.dest in self.noted and self.noted[action.dest][1] != value and not isinstance(action, argparse._AppendAction):
