@@ -40,8 +40,9 @@ struct RunEnd {
   // Called once, after the last answer is written.
   std::function<void()> ended;
   // Ends the process with the message and the status of `fault`; may return. Called if an error, a signal or
-  // a closed output ends the run and a record is still unfinished after .1 s: threads cannot be stopped
-  // within a record, and they use objects of the caller. If it is empty, the run ends after the record.
+  // a closed output ends the run and a record is still unfinished after .1 s: not all work asks whether to
+  // stop (base/stop_check.h), and threads use objects of the caller. If it is empty, the run ends after the
+  // record.
   std::function<void(const std::exception_ptr& fault)> leave;
   // Called instead of a warning if the input ends before -y scanlines.
   std::function<void()> shortInput;

@@ -7,7 +7,6 @@
 //   -Sw h  equal_weights.h       base directions alone
 //   -Sw v  voronoi_weights.h     the paper's rule
 //   -Sw c  silhouette_weights.h  the default; its header lists the differences from the paper, with reasons
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>

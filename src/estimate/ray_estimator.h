@@ -17,7 +17,6 @@
 // more rays; this causes the remaining bias (two_halves.h has measured it for points). Where the solutions
 // differ by much more than the accuracy, more rays do not help: the ray is then estimated by paths that use
 // no patches.
-#include <functional>
 #include <vector>
 
 #include "base/function_ref.h"

@@ -12,6 +12,7 @@
 // - Daylight enters through portals (portals.h), and paths end where they leave through a portal. Except for
 //   direct sunlight, daylight comes from the sky and from other surfaces, and sharp reflections transport it,
 //   too.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -29,14 +30,16 @@ namespace rsphere {
 // The light between two diffuse surfaces is divided by their distance (world units): rays estimate the light
 // of near surfaces, light vertices the light of far ones.
 struct NearLight {
-  double width = 0;          // distance at which share() is 1/2
-  double meanLength = 1;     // of light paths from the sources to the first surfaces
-  double mirroredWidth = 0;  // distance at which joinedOfMirrored() is 1/2: of mirrored vertices' spacing
+  double width = 0;       // distance at which share() is 1/2
+  double meanLength = 1;  // of light paths from the sources to the first surfaces
+  // Distance at which joinedOfMirrored() is 1/2: that between vertices of mirrored light, at most `width`.
+  double mirroredWidth = 0;
 
   // The fraction that rays estimate at this distance, because vertices would make it too noisy. It falls with
   // the fourth power of the distance: far away, few rays meet bright surfaces, and they would be noisier than
   // vertices.
   double share(double distance) const { return shareAt(distance, width); }
+  // The same with another distance at which it is 1/2.
   static double shareAt(double distance, double half) {
     const double ratio = distance * distance / (half * half);
     return 1 / (1 + ratio * ratio);

@@ -144,6 +144,7 @@ inline bool hasRoughHighlight(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness > kNegligible;
 }
 
+// Whether it has a sharp reflection.
 inline bool isPolished(const Opaque& material) {
   return material.specularity > kNegligible && material.roughness * material.roughness <= kNegligible;
 }

@@ -92,14 +92,14 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   Images images;
   Radiance mirrored;
   const RayEnd* imaged = nullptr;
-  // Children are observed before their parents: the first straight ray to finish is the one that ends at the
-  // surface, and the rays of the surface are the ones just before it.
   // Whether sharp reflections or refractions show a surface without a pattern.
   const auto isImage = [&](const RayEnd& end) {
     constexpr unsigned kSharp = kPrimary | kReflected | kRefracted | kTransmitted;
     return !(end.context.kinds & ~kSharp) && end.hit.pattern == Color(1, 1, 1) &&
            panesBefore(end, prepared_.scene()) < 0;
   };
+  // Children are observed before their parents: the first straight ray to finish is the one that ends at the
+  // surface, and the rays of the surface are the ones just before it.
   const RayObserver separate = [&](const RayEnd& end, const RayResult& result) {
     const PathContext& ray = end.context;
     const Radiance arriving = result.value * ray.contribution;

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <functional>
 #include <optional>
 #include <span>
 

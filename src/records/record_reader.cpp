@@ -127,8 +127,8 @@ void RecordReader::newLine() {
 void RecordReader::malformed(std::string_view word) const {
   if (records_ == 0 && rad::isUtf16(word)) throw rad::Error(fmt::format("{}: {}", name_, rad::kUtf16));
   double number = 0;
-  const bool huge =
-      rad::readReal(word.data(), word.data() + word.size(), number).ec == std::errc::result_out_of_range;
+  const auto [end, error] = rad::readReal(word.data(), word.data() + word.size(), number);
+  const bool huge = error == std::errc::result_out_of_range && end == word.data() + word.size();
   throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"{}", name_, line_, perRecord_,
                                counted(perRecord_), rad::printable(word, kShownWord),
                                huge ? ", beyond the range of numbers" : ""));
