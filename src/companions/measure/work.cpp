@@ -65,10 +65,7 @@ bool forEachIndex(size_t count, int threads, const StopSignals* signals,
     });
     try {
       while (!stopped) {
-        if (signals != nullptr && signals->raised()) {
-          stopped = true;
-          return;
-        }
+        StopCheck::here();
         const size_t index = next++;
         if (index >= count) return;
         work(index, worker);
