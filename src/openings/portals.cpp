@@ -10,7 +10,7 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
   double brightest = 0;
   for (const Opening& o : openings.all()) brightest = std::max(brightest, o.radiance);
   for (Opening portal : openings.all()) {
-    if (portal.radiance < tuning::Portals::kLeastRadiance * brightest) continue;
+    if (portal.isHole && portal.radiance < tuning::Portals::kLeastRadiance * brightest) continue;
     portal.corner -= lift_ * portal.normal;
     portals_.push_back(portal);
   }

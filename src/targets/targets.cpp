@@ -1,6 +1,7 @@
 #include "targets/targets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "base/keep_largest.h"
@@ -60,6 +61,34 @@ Targets::Region Targets::regionAt(const V3d& direction) const {
   return region;
 }
 
+namespace {
+
+// The least number of directions to an opening whose light, unoccluded, is a part of all light at the point.
+double leastNumber(double light, double all) {
+  if (!(light > tuning::Targets::kLeastOpening * all)) return 0;
+  const double part = light < all ? light / all : 1;
+  return tuning::Caps::kProbes * std::sqrt(part / tuning::Targets::kLeastOpening);
+}
+
+// Reduces the densities so that at most `most` directions are expected. The least densities of openings stay,
+// or get half of the directions.
+void reduceTo(double most, std::vector<Target>& targets) {
+  double sum = 0, least = 0;
+  for (const Target& target : targets) {
+    sum += target.expected;
+    least += target.least * target.silhouette.regionSolidAngle();
+  }
+  if (!(sum > most)) return;
+  const double kept = least > most / 2 ? most / 2 / least : 1,
+               share = (most - kept * least) / (sum - kept * least);
+  for (Target& target : targets) {
+    target.density = kept * target.least + share * (target.density - kept * target.least);
+    target.expected = target.density * target.silhouette.regionSolidAngle();
+  }
+}
+
+}  // namespace
+
 TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources, double densityFactor)
     : densityFactor_(densityFactor),
@@ -71,7 +100,6 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
   std::vector<Target> targets;
   const double usual = contrasts_.baseError() * meanBrightness;
   const double baseDensity = static_cast<double>(baseDirections) / kFullSphere;
-  double sum = 0;
   for (FoundRegion& found : finders_.find(point, usual)) {
     const double solidAngle = found.silhouette.regionSolidAngle();
     if (!(solidAngle > 0)) continue;
@@ -79,19 +107,14 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
     if (found.deviation > usual)
       density = usual > 0 ? (found.deviation / usual - 1) * baseDensity * densityFactor_
                           : static_cast<double>(most) / solidAngle;
-    if (found.daylight * solidAngle > tuning::Targets::kLeastOpening * kFullSphere * meanBrightness)
-      density = std::max(density, tuning::Caps::kProbes / solidAngle - baseDensity);
+    const double least =
+        std::max(0., leastNumber(found.daylight * solidAngle, kFullSphere * meanBrightness) / solidAngle -
+                         baseDensity);
+    density = std::max(density, least);
     if (!(density > 0) && solidAngle * baseDensity < tuning::Targets::kFewestFitted) continue;
-    sum += density * solidAngle;
-    targets.push_back({std::move(found.silhouette), density, density * solidAngle, found.continues});
+    targets.push_back({std::move(found.silhouette), density, least, density * solidAngle, found.continues});
   }
-  if (sum > static_cast<double>(most)) {
-    const double scale = static_cast<double>(most) / sum;
-    for (Target& target : targets) {
-      target.density *= scale;
-      target.expected *= scale;
-    }
-  }
+  reduceTo(static_cast<double>(most), targets);
   chooseFitted(targets, baseDensity);
   return Targets(std::move(targets));
 }

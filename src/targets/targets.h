@@ -16,6 +16,7 @@ namespace rsphere {
 struct Target {
   Silhouette silhouette;
   double density = 0;      // extra directions per sr of its region
+  double least = 0;        // the part of the density that an opening needs to be seen
   double expected = 0;     // expected number of extra directions
   bool continues = false;  // part of one image together with the preceding target
   // Whether cells are fitted to its solid angle (cells_in_targets.h). Fitted targets do not overlap.
@@ -55,8 +56,9 @@ class TargetChoice {
 
   // The targets at a point (world). The density on a target is in proportion to the standard deviation of its
   // radiance (Neyman's allocation), relative to the base directions, whose density is assumed to be optimal
-  // elsewhere. If this takes more than `most` extra directions on average, all densities are reduced by one
-  // factor, so that no target is dropped. meanBrightness: of the view from the point, W/sr/m2.
+  // elsewhere. If this takes more than `most` extra directions on average, all densities beyond the least of
+  // openings are reduced by one factor, so that no target is dropped. meanBrightness: of the view from the
+  // point, W/sr/m2.
   Targets at(const V3d& point, double meanBrightness, size_t baseDirections, size_t most) const;
 
  private:
