@@ -14,15 +14,6 @@ const Distant& distantOf(const Scene& scene, const LightSource& light) {
   return *scene.surfaces[light.surface].shape.as<Distant>();
 }
 
-// A random direction (unit), uniform within a cone of this solid angle (sr).
-template <class Numbers>
-V3d withinCone(const V3d& axis, double solidAngle, Numbers& random) {
-  const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
-  const double r = std::sqrt(std::max(0., 1 - height * height));
-  const auto [x, y] = frame(axis);
-  return height * axis + r * (std::cos(angle) * x + std::sin(angle) * y);
-}
-
 }  // namespace
 
 SourceEmission::SourceEmission(const PreparedScene& prepared, const PlainSurfaces& surfaces, size_t paths)

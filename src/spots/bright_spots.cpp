@@ -89,6 +89,7 @@ std::optional<BrightSpots::Particle> BrightSpots::arrived(const Scene& scene, co
   const auto diffuse = diffuseReflection(*scene.materialOf(scene.surfaces[hit.surface]));
   if (!diffuse) return {};
   power *= brightness(diffuse->color) * diffuse->share;
+  if (!(power > 0)) return {};  // black surfaces would hide the extent of a spot
   const V3d point = last->origin + hit.distance * direction,
             front = hit.cosine < 0 ? -hit.normal : hit.normal;
   const V3d back = sentFrom(front, random);

@@ -1,5 +1,10 @@
 #pragma once
 // Particles that carry light from the sources of a scene, each with an equal part of the power.
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/frame.h"
 #include "base/function_ref.h"
 #include "base/random.h"
 #include "light/sources.h"
@@ -18,7 +23,8 @@ using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, d
 double powerOf(const Scene& scene, const LightSource& light, double reach);
 
 // Sends about `count` particles from all real sources; the number from each source is proportional to its
-// power. Particles of distant sources start outside the scene. The particles depend only on the scene.
+// power, without its patterns. Spotlights send theirs within the cone. Particles of distant sources start
+// outside the scene. The particles depend only on the scene.
 void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
                    SentParticle each);
 
@@ -27,6 +33,15 @@ template <class Numbers>
 V3d sentFrom(const V3d& normal, Numbers& random) {
   const double u1 = random.uniform(), u2 = random.uniform();
   return diffuseDirection(normal, u1, u2);
+}
+
+// A random direction (unit), uniform within a cone of this solid angle (sr).
+template <class Numbers>
+V3d withinCone(const V3d& axis, double solidAngle, Numbers& random) {
+  const double height = 1 - random.uniform() * solidAngle / (2 * kPi), angle = 2 * kPi * random.uniform();
+  const double r = std::sqrt(std::max(0., 1 - height * height));
+  const auto [x, y] = frame(axis);
+  return height * axis + r * (std::cos(angle) * x + std::sin(angle) * y);
 }
 
 }  // namespace rsphere

@@ -21,8 +21,7 @@ FoundAims findOpeningsAndImages(const PreparedScene& prepared) {
 FoundAims findAimsOfGathers(const PreparedScene& prepared) {
   if (!prepared.options().hasIndirectLight()) return {};
   FoundAims found = findOpeningsAndImages(prepared);
-  const Openings* const openings = found.of<Openings>();
-  if (prepared.options().ambientAccuracy > 0 || openings) found.keep(spotsOf(prepared, openings));
+  found.keep(spotsOf(prepared, found.of<Openings>()));
   found.keep(Highlights(prepared.scene(), prepared.tracer(), prepared.lights()));
   return found;
 }
