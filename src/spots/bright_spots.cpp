@@ -131,9 +131,10 @@ std::vector<BrightSpots::Particle> BrightSpots::particlesThrough(const Openings&
 }
 
 std::vector<BrightSpots::Particle> BrightSpots::particles(const Scene& scene, const Tracer& tracer,
-                                                          const LightSources& lights) const {
+                                                          const LightSources& lights,
+                                                          const SurfaceFunctions& functions) const {
   std::vector<Particle> found;
-  sendParticles(scene, tracer, lights, tuning::BrightSpots::kParticles,
+  sendParticles(scene, tracer, lights, functions, tuning::BrightSpots::kParticles,
                 [&](const V3d& origin, const V3d& direction, double power, const Surface&, Random& random) {
                   if (const auto particle = arrived(scene, tracer, origin, direction, power, random))
                     found.push_back(*particle);
@@ -166,7 +167,7 @@ double BrightSpots::meanSquareAcrossRooms(std::span<const Particle> particles, c
 }
 
 BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
-                         const Openings* openings)
+                         const SurfaceFunctions& functions, const Openings* openings)
     : samePlace_(scene.samePlace) {
   if (tracer.bounds().isEmpty()) return;
   spots_.origin = tracer.bounds().center();
@@ -179,7 +180,7 @@ BrightSpots::BrightSpots(const Scene& scene, const Tracer& tracer, const LightSo
         sunlit_.push_back(node.sunlit());
     }
   }
-  std::vector<Particle> everywhere = particles(scene, tracer, lights);
+  std::vector<Particle> everywhere = particles(scene, tracer, lights, functions);
   find(everywhere, scene.area(), tuning::Caps::kAimed, tuning::BrightSpots::kBrighter,
        tuning::BrightSpots::kBrighter);
 }

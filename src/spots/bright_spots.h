@@ -28,7 +28,7 @@ class BrightSpots {
   // evenly lit scene has none. openings: if not null, equally many particles are also traced from distant
   // sources through the openings. Keeps no references.
   BrightSpots(const Scene& scene, const Tracer& tracer, const LightSources& lights,
-              const Openings* openings = nullptr);
+              const SurfaceFunctions& functions, const Openings* openings = nullptr);
 
   bool empty() const { return spots_.count == 0; }
   // The mean brightness (W/sr/m2) of all surfaces that are lit by the sources of the spots.
@@ -68,7 +68,8 @@ class BrightSpots {
   };
   struct Particle;
   struct Node;
-  std::vector<Particle> particles(const Scene& scene, const Tracer& tracer, const LightSources& lights) const;
+  std::vector<Particle> particles(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+                                  const SurfaceFunctions& functions) const;
   std::vector<Particle> particlesThrough(const Openings& openings, const Scene& scene, const Tracer& tracer,
                                          const LightSources& lights) const;
   static std::optional<Particle> arrived(const Scene& scene, const Tracer& tracer, const V3d& origin,

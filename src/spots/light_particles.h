@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "light/sources.h"
 #include "shade/scattering.h"
+#include "shade/surface_functions.h"
 #include "trace/tracer.h"
 
 namespace rsphere {
@@ -23,10 +24,11 @@ using SentParticle = FunctionRef<void(const V3d& origin, const V3d& direction, d
 double powerOf(const Scene& scene, const LightSource& light, double reach);
 
 // Sends about `count` particles from all real sources; the number from each source is proportional to its
-// power, without its patterns. Spotlights send theirs within the cone. Particles of distant sources start
-// outside the scene. The particles depend only on the scene.
-void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights, double count,
-                   SentParticle each);
+// power. Spotlights send theirs within the cone, and sources with patterns, such as the light distribution of
+// a luminaire, where they are bright. Particles of distant sources start outside the scene. The particles
+// depend only on the scene.
+void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources& lights,
+                   const SurfaceFunctions& functions, double count, SentParticle each);
 
 // A random direction (unit) on the front side, distributed like diffusely reflected light.
 template <class Numbers>

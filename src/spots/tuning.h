@@ -5,6 +5,13 @@
 
 namespace rsphere::tuning {
 
+// Particles of sources with patterns (light_particles.cpp). kTried: number of ways of which one is followed; as
+// many as for light paths (VertexLight::kCandidates). kMeasured: number that measure the power: it is known
+// within a quarter if a beam fills a quarter of the hemisphere.
+struct LightParticles {
+  static constexpr size_t kTried = 8, kMeasured = 64;
+};
+
 // Spots of strong direct light, at which indirect rays are aimed (bright_spots.cpp).
 struct BrightSpots {
   // Number of particles traced from the sources, and of those traced from distant sources through openings.

@@ -4,7 +4,7 @@ namespace rsphere {
 namespace {
 
 BrightSpots spotsOf(const PreparedScene& prepared, const Openings* openings) {
-  return BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), openings);
+  return BrightSpots(prepared.scene(), prepared.tracer(), prepared.lights(), prepared.functions(), openings);
 }
 
 // Openings, unless the scene has importance goals, and their images in flat mirrors.

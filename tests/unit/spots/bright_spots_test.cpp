@@ -28,7 +28,7 @@ const std::string kPot =
     "white ring bottom\n0\n0\n8 1 1 2.4 0 0 1 0 .302\n";
 
 BrightSpots spotsOf(const Traced& t) {
-  return BrightSpots(t.scene(), t.prepared().tracer(), t.prepared().lights());
+  return BrightSpots(t.scene(), t.prepared().tracer(), t.prepared().lights(), t.prepared().functions());
 }
 
 TEST(BrightSpots, AreWhereLightIsThick) {
@@ -49,35 +49,39 @@ TEST(BrightSpots, AreNotWhereItIsEven) {
   EXPECT_TRUE(spotsOf(Traced("")).empty());
 }
 
-// A white box under a spotlight on a black stage, of which particles in all directions would hit one in 250.
+// A white box under a narrow beam on a black stage, of which particles in all directions would hit one in 250.
 // With patches or without, gathers of some hundred rays that hit the box by chance answered 0 with an error of 0.
-TEST(BrightSpots, AreUnderSpotlights) {
+TEST(BrightSpots, AreUnderNarrowBeams) {
   const std::string stage =
       "void plastic white\n0\n0\n5 .75 .75 .75 0 0\nvoid plastic black\n0\n0\n5 .02 .02 .02 0 0\n"
-      "void spotlight lamp\n0\n0\n7 40000 40000 40000 10 0 0 -1\nlamp ring lens\n0\n0\n8 6 5 6.5 0 0 -1 0 .1\n"
+      "lamp ring lens\n0\n0\n8 6 5 6.5 0 0 -1 0 .1\n"
       "black polygon floor\n0\n0\n12 0 0 0 12 0 0 12 10 0 0 10 0\n"
       "black polygon back\n0\n0\n12 0 10 0 12 10 0 12 10 7 0 10 7\n"
       "white polygon box\n0\n0\n12 5.7 4.7 1 6.3 4.7 1 6.3 5.3 1 5.7 5.3 1\n";
-  RayOptions byPaths;
-  byPaths.ambientBounces = 2;
-  byPaths.ambientDivisions = 256;
-  byPaths.ambientAccuracy = 0;
-  const Traced t(stage, byPaths);
-  const FoundAims found = findAimsOfGathers(t.prepared());
-  const BrightSpots* const spots = found.of<BrightSpots>();
-  ASSERT_NE(spots, nullptr);
-  const V3d sensor(6, 1, 3), below(0, 0, -1);
-  BrightSpots::Aim aim;
-  spots->aim({sensor, below}, aim);
-  ASSERT_GT(aim.mean, 0);
-  Random random(1);
-  Sample onBox;
-  for (int i = 0; i < 1000; ++i) {
-    const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
-    const V3d direction = spots->sample(aim, u1, u2, u3), at = sensor - 2 / direction.z * direction;
-    onBox.add(std::abs(at.x - 6) < .3 && std::abs(at.y - 5) < .3);
+  for (const std::string lamp :
+       {"void spotlight lamp\n0\n0\n7 40000 40000 40000 10 0 0 -1\n",
+        "void brightfunc beam\n2 if(Dz-.996,1,0) .\n0\n0\nbeam light lamp\n0\n0\n3 40000 40000 40000\n"}) {
+    RayOptions byPaths;
+    byPaths.ambientBounces = 2;
+    byPaths.ambientDivisions = 256;
+    byPaths.ambientAccuracy = 0;
+    const Traced t(lamp + stage, byPaths);
+    const FoundAims found = findAimsOfGathers(t.prepared());
+    const BrightSpots* const spots = found.of<BrightSpots>();
+    ASSERT_NE(spots, nullptr) << lamp;
+    const V3d sensor(6, 1, 3), below(0, 0, -1);
+    BrightSpots::Aim aim;
+    spots->aim({sensor, below}, aim);
+    ASSERT_GT(aim.mean, 0) << lamp;
+    Random random(1);
+    Sample onBox;
+    for (int i = 0; i < 1000; ++i) {
+      const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+      const V3d direction = spots->sample(aim, u1, u2, u3), at = sensor - 2 / direction.z * direction;
+      onBox.add(std::abs(at.x - 6) < .3 && std::abs(at.y - 5) < .3);
+    }
+    EXPECT_GT(onBox.mean(), .5) << lamp;
   }
-  EXPECT_GT(onBox.mean(), .5);
 }
 
 // The share of the directions aimed from the middle of the floor that meet the ceiling at x < 2.
@@ -182,7 +186,8 @@ TEST(BrightSpots, AreWhereTheSunShinesThroughOpenings) {
   const Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
   ASSERT_FALSE(openings.empty());
-  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(),
+                          room.prepared().functions(), &openings);
   for (const V3d& point : {V3d(2, 2, 3), V3d(3, 3.5, 3)}) {
     BrightSpots::Aim aim;
     spots.aim({point, V3d(0, 0, -1)}, aim);
@@ -227,7 +232,8 @@ TEST(BrightSpots, AreInTheShaftOfASkylight) {
   const Traced room(text + walls, unbiased(1));
   const Openings openings = openingsOf(text + walls);
   ASSERT_FALSE(openings.empty());
-  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(),
+                          room.prepared().functions(), &openings);
   BrightSpots::Aim aim;
   spots.aim({V3d(4.8, 5.5, .8), V3d(0, 0, 1)}, aim);
   EXPECT_GT(aim.mean, .5 * spots.usual());
@@ -236,7 +242,8 @@ TEST(BrightSpots, AreInTheShaftOfASkylight) {
 TEST(BrightSpots, ThroughOpeningsLeaveTheMeanAsItIs) {
   Traced room(kSunlitRoom, unbiased(1));
   const Openings openings = openingsOf(kSunlitRoom);
-  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(), &openings);
+  const BrightSpots spots(room.scene(), room.prepared().tracer(), room.prepared().lights(),
+                          room.prepared().functions(), &openings);
   PathTracer aimed = room.tracerWith(Aims(&spots));
   // A ray to the north wall, below the sill, where no ground is visible through the window.
   const V3d origin(2, 2, .9), north = V3d(.1, 1, 0).normalized();
