@@ -27,7 +27,8 @@ const Smoothing kOfIndirect{OfPictures::kIndirectPasses, OfPictures::kFinePasses
 // Images in panes and mirrors are gathered with few rays at each pixel.
 const Smoothing kOfImages{OfPictures::kIndirectPasses, OfPictures::kFinePasses, OfPictures::kSameLight,
                           OfPictures::kSameGlossNormal, OfPictures::kNear};
-const Smoothing kOfGloss{OfPictures::kFinePasses, 0, 0, OfPictures::kSameGlossNormal, OfPictures::kNear};
+const Smoothing kOfGloss{OfPictures::kFinePasses, 0,   0, OfPictures::kSameGlossNormal,
+                         OfPictures::kNear,       true};
 // The first pass blurs the edges of sharp shadows by a pixel. refine() traces these pixels again, because
 // they differ visibly from their neighbors.
 const Smoothing kOfDirect{1, OfPictures::kFinePasses, OfPictures::kSameLight, kSameNormal, OfPictures::kNear};

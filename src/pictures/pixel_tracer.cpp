@@ -23,6 +23,12 @@ bool sharesGloss(const Material& material, const SurfaceHit& hit) {
   return trans && trans->roughness >= tuning::Pictures::kLeastRoughness && hit.pattern == Color(1, 1, 1);
 }
 
+double roughnessOf(const Material& material) {
+  if (const auto* opaque = std::get_if<Opaque>(&material)) return opaque->roughness;
+  const auto* trans = std::get_if<Trans>(&material);
+  return trans ? trans->roughness : 0;
+}
+
 // Whether the light of sources changes little between neighboring pixels except at shadows. Any finer
 // variation is then noise in soft shadows.
 bool sharesDirect(const Material& material, const SurfaceHit& hit) {
@@ -165,8 +171,13 @@ PixelSample PixelTracer::traceOnce(const V3d& direction, uint64_t seed, PixelPar
   sample.indirect = shownRgb(indirect.color, sampling) / pattern;
   sample.gloss = shownRgb(gloss.color, sampling);
   sample.direct = shownRgb(direct.color, sampling);
-  sample.seen = {id, Imath::V3f(distance * direction), Imath::V3f(shown.normal), static_cast<float>(distance),
-                 panes};
+  sample.seen = {id,
+                 Imath::V3f(distance * direction),
+                 Imath::V3f(shown.normal),
+                 static_cast<float>(distance),
+                 panes,
+                 0,
+                 static_cast<float>(roughnessOf(*material))};
   return sample;
 }
 

@@ -1,5 +1,6 @@
 #include "pictures/smooth_light.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -48,8 +49,11 @@ Average averageAround(const SeenSurfaces& seen, const Smoothing& smoothing, cons
 }  // namespace
 
 bool mayShare(const SeenSurface& a, const SeenSurface& b, const Smoothing& smoothing) {
+  // The cosine of an angle as large as the roughness: the normals then differ less than those of the
+  // microfacets that make the lobe.
+  const float rough = smoothing.ofGloss ? 1 - a.roughness * a.roughness / 2 : 1;
   if (a.material != b.material || a.panes != b.panes || a.images != b.images ||
-      a.normal.dot(b.normal) < smoothing.sameNormal)
+      a.normal.dot(b.normal) < std::min(smoothing.sameNormal, rough))
     return false;
   const Imath::V3f apart = b.point - a.point;
   const float square = apart.length2(), rise = apart.dot(a.normal);

@@ -13,6 +13,7 @@ struct SeenSurface {
   float distance = 0;   // from the eye
   int panes = 0;        // of glass in front of it
   uint32_t images = 0;  // if it is a mirror: which surfaces it shows, as a hash
+  float roughness = 0;  // of its gloss
 };
 
 struct SeenSurfaces {
@@ -33,6 +34,7 @@ struct Smoothing {
   float sameLight = 0;   // largest relative difference: tuning::Pictures::kSameLight
   float sameNormal = 0;  // least cosine between the normals
   float near = 0;        // tuning::Pictures::kNear
+  bool ofGloss = false;  // whether the normals may differ more where surfaces are rougher
 };
 
 // Whether two pixels show one material on a common flat or slightly curved surface.

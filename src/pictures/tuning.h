@@ -53,7 +53,7 @@ struct Pictures {
   static constexpr int kFinePasses = 2;
   static constexpr double kLeastRoughness = .02;
   // Least cosine between the normals of pixels that share gloss: derived. It corresponds to 2 degrees, less
-  // than the width of a shared lobe.
+  // than the width of a shared lobe. Where the roughness is a larger angle, that is the limit.
   static constexpr float kSameGlossNormal = .9994f;
   // Visible difference between neighboring pixels, on an sRGB scale of 0 to 1. Where it is exceeded, four
   // rays near the corners of the pixel are added; if these differ as much, four near the middles of its

@@ -294,6 +294,16 @@ double grainOf(const std::function<double(int column, int row)>& at, int firstRo
   return std::sqrt(squares / count) / (sum / count);
 }
 
+// From pixel to pixel, the normals of a small ball differ by more than two degrees, and none shared gloss.
+TEST(PointPicture, SmallRoughBallsHaveNoGrain) {
+  const Drawn drawn(room("window ring w 0 0 8 0 0 2 0 0 -1 0 1.5\nvoid metal bronze 0 0 5 .6 .6 .6 1 .12\n"
+                         "bronze sphere vase 0 0 4 .8 0 0 .25\n"),
+                    V3d(0, 0, 0), 1, Projection::latitudeLongitude, 512);
+  const auto at = [&](int column, int row) { return drawn.at(static_cast<size_t>(512 * row + column)); };
+  // The ball covers 52 pixels around the middle of the right half. Without sharing: .26.
+  EXPECT_LT(grainOf(at, 118, 138, 374, 394), .08);
+}
+
 // Behind glass no pixel shared the indirect light of the wall with its neighbors. The glass reflects nothing.
 TEST(PointPicture, WallsBehindGlassHaveNoGrain) {
   const Drawn drawn(room("window ring w 0 0 8 2.8 0 0 -1 0 0 0 .6\nvoid glass pane 0 0 4 .9 .9 .9 1\n"
