@@ -47,6 +47,9 @@ struct RayOptions {
   int leastForPatches = 0;
   // If it is not 0, used instead of -ad + -as for the number of rays of a patch. Not an option: set for -Sa.
   double raysForPatches = 0;
+  // Whether patches need no more rays than the records of the irradiance cache, which alone look them up
+  // (caches.cpp). Not an option: set for radiances along rays, as of the pixels of a picture.
+  bool patchesForRecords = false;
   int solutions = 1;        // FieldOptions::solutions. Not an option: more than one where errors are stated
   int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: set for pictures
   std::string ambientFile;  // -af

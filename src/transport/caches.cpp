@@ -4,6 +4,7 @@
 
 #include "base/version.h"
 #include "field/fingerprint.h"
+#include "transport/final_gather.h"
 
 namespace rsphere {
 namespace {
@@ -19,9 +20,9 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                directRelays, chosenSources, directPretest, sourcesVisible, caustics, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
                ambientSuperSamples, firstRays, ambientValue, ambientWeight, leastForPatches, raysForPatches,
-               solutions, coarserLinks, ambientFile, fieldMemory, ambientExcluded, ambientIncluded,
-               reflectionLimit, weightLimit, mediumExtinction, mediumAlbedo, mediumEccentricity,
-               mediumSampling, definitions, backFacesVisible, uncorrelated, rotation] = o;
+               patchesForRecords, solutions, coarserLinks, ambientFile, fieldMemory, ambientExcluded,
+               ambientIncluded, reflectionLimit, weightLimit, mediumExtinction, mediumAlbedo,
+               mediumEccentricity, mediumSampling, definitions, backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
   print.add(uint64_t{9});  // increase this if gathering changes without a new kVersion
@@ -38,6 +39,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
     for (const double x : {wavelengths.shortest, wavelengths.longest}) print.add(x);
   if (rotation != 0) print.add(rotation);
   if (raysForPatches != 0) print.add(raysForPatches);
+  if (patchesForRecords) print.add(uint64_t{1} << 33);
   if (solutions != 1) print.add(static_cast<uint64_t>(solutions) << 32);
   if (coarserLinks != 0) print.add(static_cast<uint64_t>(coarserLinks));
   for (const bool b : {sourcesVisible, backFacesVisible, uncorrelated, basicRadiance}) print.add(uint64_t{b});
@@ -85,9 +87,15 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
   // Without a distant source, openings only transmit the light of lamps from one room to another.
   const bool isDaylit = aims.of<Openings>() && !prepared.lights().distant().empty();
   caches.byLamps = isLitByLamps(prepared);
-  if (o.ambientBounces > 1)
-    caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, fieldOptions(o),
+  if (o.ambientBounces > 1) {
+    FieldOptions ofPatches = fieldOptions(o);
+    // Patches with more rays than -aa is worth take up to a quarter of the time of a picture, for nearly the
+    // same error (2026-11-29-pictures.txt).
+    if (o.patchesForRecords && isDaylit)
+      ofPatches.rays = std::min<double>(ofPatches.rays, raysOfRecord(o, LitBy::openings));
+    caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, ofPatches,
                                                      isDaylit ? aims.of<Openings>()->depth() : 0);
+  }
   if (o.ambientFile.empty()) return caches;
   if (o.sampling) {
     if (warn) warn("-af: nothing is kept of a spectral run (-cs above 3); the ambient file is ignored");
