@@ -395,7 +395,7 @@ void checkTogether(Options& options, bool mostGiven) {
   if (options.ray.fieldMemory > 0 && !options.ray.ambientFile.empty())
     throw rad::Error("-Sm and -af exclude each other: an ambient file is kept in memory as a whole");
   options.ray.patchesForRecords =
-      !options.sphereMode && options.irradiance == IrradianceAt::none && !options.estimatesRays();
+      !options.sphereMode && options.irradiance != IrradianceAt::point && !options.estimatesRays();
   if (!options.sphereMode) return;
   if (options.listSpecial && !options.picture.empty())
     commandLineError("-Si", "not with -Sl, which lists special objects and answers no points");

@@ -48,7 +48,7 @@ struct RayOptions {
   // If it is not 0, used instead of -ad + -as for the number of rays of a patch. Not an option: set for -Sa.
   double raysForPatches = 0;
   // Whether patches need no more rays than the records of the irradiance cache, which alone look them up
-  // (caches.cpp). Not an option: set for radiances along rays, as of the pixels of a picture.
+  // (caches.cpp). Not an option: set where light is interpolated at the first surface, as in pictures.
   bool patchesForRecords = false;
   int solutions = 1;        // FieldOptions::solutions. Not an option: more than one where errors are stated
   int coarserLinks = 0;     // FieldOptions::coarserLinks. Not an option: set for pictures

@@ -15,7 +15,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
   // Names all members, so that this fails to compile when an option is added. Add the new option below if it
   // changes gathered light. Not used: `sampling`, because spectral runs are not stored; -aw,
   // -Sgc and, where sites are gathered, -Sh, which have no effect; -af and -Sm, which only select where and
-  // how much is stored.
+  // how much is stored; and patchesForRecords, since without it (-I) there are no records.
   const auto& [sampling, wavelengths, directThreshold, directCertainty, directJitter, sourceSubstructuring,
                directRelays, chosenSources, directPretest, sourcesVisible, caustics, specularSampling,
                specularThreshold, ambientBounces, ambientAccuracy, ambientResolution, ambientDivisions,
@@ -25,7 +25,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                mediumEccentricity, mediumSampling, definitions, backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{9});  // increase this if gathering changes without a new kVersion
+  print.add(uint64_t{10});  // increase this if gathering changes without a new kVersion
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
@@ -39,7 +39,6 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
     for (const double x : {wavelengths.shortest, wavelengths.longest}) print.add(x);
   if (rotation != 0) print.add(rotation);
   if (raysForPatches != 0) print.add(raysForPatches);
-  if (patchesForRecords) print.add(uint64_t{1} << 33);
   if (solutions != 1) print.add(static_cast<uint64_t>(solutions) << 32);
   if (coarserLinks != 0) print.add(static_cast<uint64_t>(coarserLinks));
   for (const bool b : {sourcesVisible, backFacesVisible, uncorrelated, basicRadiance}) print.add(uint64_t{b});
