@@ -4,7 +4,7 @@
 
 #include "base/version.h"
 #include "field/fingerprint.h"
-#include "transport/final_gather.h"
+#include "transport/tuning.h"
 
 namespace rsphere {
 namespace {
@@ -73,6 +73,17 @@ FieldOptions fieldOptions(const RayOptions& o) {
   rotation = rotationBits(o);
   memory = o.fieldMemory;
   return field;
+}
+
+int raysOfRecord(const RayOptions& o, LitBy by) {
+  const int all = o.ambientDivisions + o.ambientSuperSamples;
+  if (by == LitBy::other) return all;
+  using Interpolation = tuning::Interpolation;
+  const bool lamps = by == LitBy::lamps;
+  const double rays = lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings;
+  const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
+  const double enough = rays / (o.ambientAccuracy * o.ambientAccuracy);
+  return static_cast<int>(std::clamp<double>(enough, (all + part - 1) / part, all));
 }
 
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn) {

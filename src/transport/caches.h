@@ -1,5 +1,6 @@
 #pragma once
 // The caches of interpolated light (-aa above 0). All threads share them, and tracing adds to them.
+#include <cstdint>
 #include <memory>
 
 #include "field/coarse_solution.h"
@@ -12,6 +13,12 @@ namespace rsphere {
 
 // The options of the irradiance cache and the coarse solution.
 FieldOptions fieldOptions(const RayOptions& options);
+
+// What lights a place: lamps alone (isLitByLamps()), daylight through openings at which rays are aimed, or
+// anything else.
+enum class LitBy : uint8_t { lamps, openings, other };
+// The number of rays of a record of the irradiance cache.
+int raysOfRecord(const RayOptions& options, LitBy by);
 
 struct Caches {
   // Light at the first diffuse surfaces; null without interpolation (-aa 0).

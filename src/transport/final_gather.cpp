@@ -29,17 +29,6 @@ struct Root {
 
 }  // namespace
 
-int raysOfRecord(const RayOptions& o, LitBy by) {
-  const int all = o.ambientDivisions + o.ambientSuperSamples;
-  if (by == LitBy::other) return all;
-  using Interpolation = tuning::Interpolation;
-  const bool lamps = by == LitBy::lamps;
-  const double rays = lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings;
-  const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
-  const double enough = rays / (o.ambientAccuracy * o.ambientAccuracy);
-  return static_cast<int>(std::clamp<double>(enough, (all + part - 1) / part, all));
-}
-
 double mostAddedAtSensors(const RayOptions& options) {
   return tuning::SensorNoise::kMostAdded * std::min(options.ambientSuperSamples, options.ambientDivisions);
 }

@@ -6,12 +6,6 @@
 
 namespace rsphere {
 
-// What lights a place: lamps alone (isLitByLamps()), daylight through openings at which rays are aimed, or
-// anything else.
-enum class LitBy : uint8_t { lamps, openings, other };
-// The number of rays of a record of the irradiance cache.
-int raysOfRecord(const RayOptions& options, LitBy by);
-
 // The most rays that a sensor (-I) may add to -ad plus -as where its gather is noisy. A draft with few -ad
 // stays one although -as has its default.
 double mostAddedAtSensors(const RayOptions& options);
