@@ -1,9 +1,12 @@
 // A falsecolor plan of the illuminance on a floor, a desk or a wall of a scene, and its average and
 // uniformity. Without arguments it prints its options.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +14,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "area.h"
@@ -183,6 +187,8 @@ Settings settingsOf(const std::vector<std::string>& words) {
   if (s.unit != "lx" && s.unit != kRadiant && s.readings.empty())
     throw rad::Error(fmt::format("-q is for what -i reads; without -i, {} is the only other unit", kRadiant));
   rsphere::requireSvgName("-o", s.picture, "the plan");
+  rsphere::requireWritable(s.picture);
+  rsphere::requireWritable(s.table);
   if (s.outdoors > 0) s.unit = "%";
   return s;
 }
@@ -337,19 +343,33 @@ void run(const Settings& s) {
   if (!s.picture.empty()) rsphere::writeTextFile(s.picture, planAsSvg(area, grid, values, drawing));
 }
 
+// Throws std::system_error if the standard output is closed: the next file opened would take its place.
+void requireOutput() {
+  if (fcntl(STDOUT_FILENO, F_GETFD) < 0) throw std::system_error(errno, std::generic_category());
+}
+
+// As fmt::print() does for what does not fit into the stream's buffer.
+void flushOutput() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+}
+
 }  // namespace
 }  // namespace grid
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words{argv + 1, argv + argc};
-  if (words.empty() || words[0] == "-help" || words[0] == "--help") {
-    fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::defaults(), " "));
-    return 0;
-  }
   try {
-    grid::run(grid::settingsOf(words));
+    grid::requireOutput();
+    if (words.empty() || words[0] == "-help" || words[0] == "--help")
+      fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::defaults(), " "));
+    else
+      grid::run(grid::settingsOf(words));
+    grid::flushOutput();
   } catch (const rad::Error& error) {
     fmt::print(stderr, "rsphere-plan: fatal - {}\n", error.what());
     return static_cast<int>(error.status());
+  } catch (const std::system_error& error) {
+    fmt::print(stderr, "rsphere-plan: system - write error: {}\n", error.code().message());
+    return static_cast<int>(rad::Status::system);
   }
 }

@@ -323,8 +323,10 @@ py::object contributions(const py::object& self, const py::object& given, const 
 }
 
 // The middle directions of zones.
-py::object zoneMiddlesOf(size_t count) {
-  if (count < 1) throw py::value_error("the number of zones must be at least 1");
+py::object zoneMiddlesOf(const py::object& given) {
+  const int whole = wholeNumberOf(given, "count");
+  if (whole < 1) throw py::value_error("count must be at least 1, not " + std::to_string(whole));
+  const auto count = static_cast<size_t>(whole);
   Quantity directions{3, {}};
   for (const std::array<double, 3>& middle : zoneMiddles(count))
     directions.numbers.insert(directions.numbers.end(), middle.begin(), middle.end());
@@ -357,8 +359,15 @@ void refuseSecondInit(py::class_<Scene>& scene) {
   scene.attr("__init__") = py::cpp_function(once, py::name("init"), py::is_method(scene), text.c_str());
 }
 
-py::object photometricOf(const py::object& color) {
+py::object photometricOf(const py::object& given) {
+  const Numbers color = numbersOf(required(given,
+                                           "photometric() needs color: an array of shape (..., 3); "
+                                           "quantities that were not requested are None"),
+                                  "color");
   const py::module_ numpy = py::module_::import("numpy");
+  if (color.ndim() < 1 || color.shape(color.ndim() - 1) != 3)
+    throw py::value_error("color must be an array of shape (..., 3), not " +
+                          std::string(py::str(color.attr("shape"))));
   return numpy.attr("dot")(color, numpy.attr("array")(kBrightnessWeights)) * py::float_(kLumensPerWatt);
 }
 

@@ -169,8 +169,10 @@ class Contributors(unittest.TestCase):
     def test_zones(self):
         middles = rsphere.zone_middles(33)
         np.testing.assert_allclose(np.linalg.norm(middles, axis=1), 1)
-        with self.assertRaises(ValueError):
-            rsphere.zone_middles(0)
+        for count, error, words in ((0, ValueError, "count must be at least 1, not 0"), (-1, ValueError, "at least 1, not -1"),
+                                    (2.5, TypeError, "count must be a whole number .* not 2.5"), (10**12, TypeError, "below 2147483648"), ("a", TypeError, "not 'a'")):
+            with self.assertRaisesRegex(error, words):
+                rsphere.zone_middles(count)
 
     def test_bins_of_directions(self):
         scene = rsphere.Scene(ROOM)
@@ -261,6 +263,11 @@ class Arrays(unittest.TestCase):
         lux = scene.sphere(POINTS, directions=64, outputs="EH", arguments=["-pY"])
         np.testing.assert_allclose(rsphere.photometric(colors.scalar_irradiance), lux.scalar_irradiance, rtol=1e-12)
         np.testing.assert_allclose(rsphere.photometric(colors.face_irradiance), lux.face_irradiance, rtol=1e-12)
+        self.assertAlmostEqual(float(rsphere.photometric([1, 1, 1])), rsphere.LUMENS_PER_WATT)
+        for color, error, words in ((1.0, ValueError, r"shape \(..., 3\), not \(\)"), ([1, 2], ValueError, r"not \(2,\)"), (None, TypeError, "not requested are None"),
+                                    ([[True] * 3], TypeError, "color must be numbers"), ("a", (TypeError, ValueError), "float")):
+            with self.assertRaisesRegex(error, words):  # a number gave the weights of the colors
+                rsphere.photometric(color)
 
     def test_the_standard_error_is_that_of_repeats(self):
         scene = rsphere.Scene(ROOM)

@@ -1,10 +1,15 @@
 #include "companions/report/page.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "companions/report/markup.h"
 #include "rad_parser/error.h"
@@ -48,6 +53,13 @@ std::string markupOf(const PageTable& table) {
     row(one.cells, "td");
   }
   return out + "</tbody></table></div>\n";
+}
+
+// errno as `why`; 0 if the stream has not kept it.
+rad::Error cannotWrite(const std::string& name, int why) {
+  return rad::Error(
+      fmt::format("cannot write \"{}\"{}{}", name, why ? ": " : "", why ? std::strerror(why) : ""),
+      rad::Status::system);
 }
 
 }  // namespace
@@ -111,11 +123,25 @@ std::string dateAndTime(std::time_t when) {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M %Z", &local)};
 }
 
+void requireWritable(const std::string& name) {
+  if (name.empty()) return;
+  const std::filesystem::path path(name);
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) throw cannotWrite(name, EISDIR);
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  if (access(folder.c_str(), F_OK) != 0) throw cannotWrite(name, errno);
+  if (!std::filesystem::is_directory(folder, unknown)) throw cannotWrite(name, ENOTDIR);
+  const bool there = access(name.c_str(), F_OK) == 0;
+  if (access(there ? name.c_str() : folder.c_str(), there ? W_OK : W_OK | X_OK) != 0)
+    throw cannotWrite(name, errno);
+}
+
 void writeTextFile(const std::string& name, std::string_view text) {
+  errno = 0;
   std::ofstream file(name, std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw rad::Error(fmt::format("cannot write \"{}\"", name), rad::Status::system);
+  if (!file) throw cannotWrite(name, errno);
 }
 
 }  // namespace rsphere

@@ -61,7 +61,11 @@ class Page {
 // A moment in local time, with the name of its zone: "2026-11-23 14:05 CET".
 std::string dateAndTime(std::time_t when);
 
-// Writes a file. Throws rad::Error (Status::system) with its name if it cannot be written.
+// Throws the fault of writeTextFile() before the work whose result is to be written, and changes nothing. An
+// empty name stands for no file.
+void requireWritable(const std::string& name);
+
+// Writes a file. Throws rad::Error (Status::system) with its name and the system's reason if it cannot.
 void writeTextFile(const std::string& name, std::string_view text);
 
 }  // namespace rsphere

@@ -1,8 +1,13 @@
 #include "companions/report/page.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 
 #include "rad_parser/error.h"
 #include "tests/unit/support/markup_of.h"
@@ -61,13 +66,29 @@ TEST(Page, OptionsInATableStayWhole) {
 }
 
 TEST(TextFile, SaysWhatCannotBeWritten) {
-  try {
-    writeTextFile("/nowhere/page.html", "text");
-    FAIL();
-  } catch (const rad::Error& error) {
-    EXPECT_EQ(error.status(), rad::Status::system);
-    EXPECT_STREQ(error.what(), "cannot write \"/nowhere/page.html\"");
-  }
+  const auto write = [](const std::string& name) { writeTextFile(name, "text"); };
+  for (const auto& attempt : {std::function<void(const std::string&)>(write), {requireWritable}})
+    for (const auto& [name, why] : {std::pair{"/nowhere/page.html", "No such file or directory"},
+                                    {"/dev/null/page.html", "Not a directory"},
+                                    {"/", "Is a directory"}})
+      try {
+        attempt(name);
+        ADD_FAILURE() << name;
+      } catch (const rad::Error& error) {
+        EXPECT_EQ(error.status(), rad::Status::system);
+        EXPECT_EQ(error.what(), fmt::format("cannot write \"{}\": {}", name, why));
+      }
+}
+
+TEST(TextFile, IsNotChangedBeforeItIsWritten) {
+  const std::string name = testing::TempDir() + "page_test.txt";
+  std::filesystem::remove(name);
+  requireWritable(name);
+  EXPECT_FALSE(std::filesystem::exists(name));
+  writeTextFile(name, "text");
+  requireWritable(name);
+  EXPECT_EQ(std::filesystem::file_size(name), 4U);
+  requireWritable("");
 }
 
 }  // namespace
