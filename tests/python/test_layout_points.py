@@ -213,6 +213,24 @@ class Layouts(unittest.TestCase):
         run, _, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "1", "-s", "2")
         self.assertRegex(run.stdout, "Cannot be met: illuminance floor: .* alone it could have [0-9]+ lx: the other goals")
 
+    def test_limits_that_would_do(self):
+        """Nothing was said of uniformity and of glare. What is said to do, does; a little more does not."""
+        eye, options = "eye me 1.5 2.5 1.2 1 0 0", ("-c", "0", "-d", "64", "-b", "1", "-s", "2")
+        places = [f"place panel {x} 2.5 2.9" for x in (2, 4, 6)]
+        for lines, change, asked, more in (
+            ([eye, "illuminance floor 120", "ugr me 10"], "ugr me {:g}", "illuminance floor: 120 lx .* alone it could have [0-9]+ lx: the other goals or their "
+             "limits stand against it; with ugr me of ([0-9.]+) it could be met, all others kept", -0.5),
+            ([eye, "illuminance floor 50", "ugr me 5"], "ugr me {:g}", r"ugr me: 5\.0 is wanted, [^;]*; ([0-9.]+) would do, all others kept; for 5\.0 it takes other", -0.5),
+            (["illuminance floor 50 uniformity .9"], "illuminance floor 50 uniformity {:g}", r"uniformity floor: 0\.90 is wanted, [^;]*; ([0-9.]+) would do, all", 0.05),
+        ):
+            run, page, _ = self.run_on([*places, *lines], "", *options)
+            said = re.search(f"Cannot be met: {asked}", run.stdout)
+            self.assertTrue(said, run.stdout)
+            self.assertIn(said[0], page)
+            for value, missed in ((float(said[1]), False), (float(said[1]) + more, True)):
+                run, _, _ = self.run_on([*places, *lines[:-1], change.format(value)], "", *options)
+                self.assertEqual("Cannot be met" in run.stdout, missed, f"{change.format(value)}: {run.stdout}")
+
     def test_rows_are_even(self):
         lines = ["grid panel ceiling spacing 1 margin .5", "rows", "most 9", "illuminance floor 300 uniformity .3"]
         run, page, _ = self.run_on(lines, "", "-c", "0", "-d", "64", "-b", "0", "-s", "1")

@@ -200,7 +200,8 @@ def constrain_goal(program, row, variables, slack=None):
 
 
 def build(design, candidates, watts, scenes, elastic, dimmed):
-    """scenes: the rows of each. elastic: goals may be missed, which is what costs; slacks are by goal. dimmed: cost of levels, by watts."""
+    """scenes: the rows of each. elastic: goals may be missed (if it is a goal, this one alone), which is what costs; slacks are by goal.
+    dimmed: cost of levels, by watts."""
     program, slacks, by_scene = Program(), [], []
     x = program.variables(len(candidates), 1e-6 * watts if elastic else watts, integer=True)
     arrange(program, design, candidates, x)
@@ -214,7 +215,7 @@ def build(design, candidates, watts, scenes, elastic, dimmed):
         by_goal = {}
         for row in rows:
             slack = None
-            if elastic:
+            if elastic is True or elastic is row.goal:
                 key = id(row.goal)
                 if key not in by_goal:
                     by_goal[key] = program.variables(1, 1.0, upper=np.inf)[0]
@@ -395,6 +396,18 @@ def most_of(design, candidates, row, seconds):
     arrange(program, design, candidates, x)
     found = program.solve(seconds, 0.01)
     return None if found.x is None else float(row.coefficients @ np.round(found.x[x]) + row.constant)
+
+
+def nearest(design, candidates, watts, scenes, goal, seconds):
+    """The levels of all candidates in each scene that come nearest to a goal, all others of `scenes` kept; goal None: that keep all.
+
+    None if they cannot be kept, or for lack of time.
+    """
+    solver = Solver(design, candidates, watts, scenes, goal, 1e-9)
+    found = solver.solve(seconds, 0.01)
+    if found.x is None:
+        return None
+    return [found.x[v] if design.dims() else np.round(found.x[v]) for v in solver.levels]
 
 
 def dim(design, watts, scene, rows, chosen, allowed, seconds):

@@ -1,5 +1,6 @@
 """The steps from goals to a page: matrix, search, luminaires as built, check by light traced forward, plans."""
 import contextlib
+import dataclasses
 import math
 import os
 import statistics
@@ -18,10 +19,10 @@ from .polish import STEPS as ROUNDS
 from .polish import layout_text, neighbours, not_allowed, read_layout, spaces
 from .drawing import drawing
 from .room import plan_of, polygons_named, read_polygons
-from .search import TIE, Layout, most_of, search
+from .search import TIE, Layout, most_of, nearest, search
 from .standing import covered_text, darkest_text
 from .transfer import Transfer
-from .wanted import Light, answers, light_of, receiver_of, rows_of
+from .wanted import Answer, Light, answers, light_of, receiver_of, rows_of
 
 TOLERANCE = 0.03  # of the check: what was planned and what is found agree within it
 AGREE = {None: TOLERANCE, "ugr": 0.2}  # UGR by its difference
@@ -38,7 +39,9 @@ NOISY = 0.01  # of a planned uniformity: with a larger standard error, its light
 MOST_FINER = 8  # times the directions, where the few luminaires that are left allow it
 DAYLIGHT_DIVISIONS = 1024
 DARKEST_TOLD = 3  # on the terminal, the most uneven ones; the page has all
-REMEDY_SECONDS = 3  # for what would meet a goal
+REMEDY_SECONDS, REMEDIES_SECONDS = 3, 30  # for what would meet a goal, and for limits that would do, of all goals together
+BISECTIONS = 5  # for such a limit
+MOST_AGAINST = 2  # limits that are named with a goal that they prevent
 HARDLY_LIT = 0.02  # of what is wanted: less light than this from all candidates together means that a goal faces the wrong way
 
 
@@ -235,6 +238,11 @@ class Steps:
                 break
             self.layout = layout
             self.timed("plan", lambda: self.plan_as_built(folder))
+            if layout.misses:
+                nearer = self.nearer(layout)
+                if nearer is not layout:
+                    self.layout = layout = nearer
+                    self.timed("plan", lambda: self.plan_as_built(folder))
             shortfall = max(self.shortfall(a) for s in range(len(factors)) for a in self.planned(s))
             if best is None or shortfall < best[0]:
                 best = shortfall, layout, self.planned_light
@@ -360,16 +368,78 @@ class Steps:
     def remedy(self, s, goal):
         """What would meet a goal that is missed: whether other goals stand against it, or how much more light it takes."""
         if goal.kind not in ("illuminance", "cylindrical"):
-            return ""
+            return self.limit_text(s, goal)
         row = rows_of(self.transfer, [goal], self.light, self.daylight[s], {})[0]
         more = most_of(self.design, self.candidates, row, REMEDY_SECONDS)
         if more is None:
             return ""
         best = more + goal.value
         if best >= goal.value:
-            return f"; alone it could have {shown(goal, best)}: the other goals or their limits stand against it"
+            return f"; alone it could have {shown(goal, best)}: the other goals or their limits stand against it{self.against_text(s, goal)}"
         return (f"; all that can hang here gives {shown(goal, best)}: {goal.value / max(best, 1e-9):.2f} times the light of the luminaires, "
                 f"more places, or a goal of {shown(goal, best)} would do")
+
+    def would_do(self, s, goal, kept):
+        """Which limit would do in place of that of a goal of uniformity, UGR or most, if it gives way to those that are kept. None if that is not known."""
+        scene, factors = self.design.all_scenes()[s], [self.factors_as_built(k, {}) for k in range(len(self.daylight))]
+        factor = factors[s].get((goal.kind, goal.target), 1.0)
+
+        def reached(value, elastic):
+            changed = dataclasses.replace(goal, value=value)
+            if self.seconds.get("remedies", 0.0) > REMEDIES_SECONDS:
+                return None
+            rows = self.rows_with(factors, lambda g: changed if g is goal else g if kept(g) else None)
+            levels = self.timed("remedies", lambda: nearest(self.design, self.candidates, self.watts, rows, changed if elastic else None, REMEDY_SECONDS))
+            if levels is None or not levels[s].any():
+                return None
+            found = next(a for a in answers(self.transfer, scene.goals, self.light, levels[s], self.daylight[s]) if a.goal is goal).value
+            return found + 8 * math.log10(factor) if goal.kind == "ugr" else found * factor
+
+        value, wanted = reached(goal.value, True), goal.value
+        for _ in range(BISECTIONS if value is not None else 0):  # slacks are lux, so that less light came nearer to a uniformity
+            middle = (value + wanted) / 2
+            found = reached(middle, False)
+            value, wanted = (value, middle) if found is None else (found, wanted)
+        if value is None or self.shortfall(Answer(goal, value, 0.0)) <= 0:
+            return None
+        return math.floor(100 * value) / 100 if goal.kind == "uniformity" else math.ceil(10 * value) / 10
+
+    def rows_with(self, factors, change):
+        """The rows of each scene. change: of a goal, what takes its place, or None."""
+        return [rows_of(self.transfer, [g for g in map(change, scene.goals) if g], self.light, day, f)
+                for scene, day, f in zip(self.design.all_scenes(), self.daylight, factors)]
+
+    def nearer(self, layout):
+        """A layout that misses a uniformity, and nothing else, by less."""
+        (s, goal, _), *more = layout.misses
+        before = next(a for a in self.planned(s) if a.goal is goal).value
+        value = self.would_do(s, goal, lambda g: True) if goal.kind == "uniformity" and not more else None
+        if value is None or value <= before:
+            return layout
+        changed = dataclasses.replace(goal, value=value)
+        rows = self.rows_with([self.factors_as_built(k, {}) for k in range(len(self.daylight))], lambda g: changed if g is goal else g)
+        better = self.timed("search", lambda: search(self.design, self.candidates, self.watts, rows, REMEDY_SECONDS, self.given.gap))
+        if better.misses:
+            return layout
+        better.misses, better.bound, better.proven, better.others = [(s, goal, goal.value - value)], 0.0, layout.proven, layout.others
+        return better
+
+    def limit_text(self, s, goal):
+        missed = {id(g) for _, g, _ in self.layout.misses}
+        for kept, words in ((lambda g: True, "all others kept"), (lambda g: id(g) not in missed, "those kept that are met")):
+            value = self.would_do(s, goal, kept)
+            if value is not None:
+                return f"; {shown(goal, value)} would do, {words}; for {shown(goal, goal.value)} it takes other luminaires, aims or places"
+        return ""
+
+    def against_text(self, s, goal):
+        """Which single limits, and how far changed, would let a goal be met that is missed because of others."""
+        found = []
+        for other in self.design.all_scenes()[s].goals:
+            if other is not goal and other.kind in ("ugr", "most", "uniformity") and len(found) < MOST_AGAINST:
+                value = self.would_do(s, other, lambda g: True)
+                found += [f"{other.kind} {other.target} of {shown(other, value)}"] if value is not None else []
+        return f"; with {' or '.join(found)} it could be met, all others kept" if found else ""
 
     def miss_text(self, s, goal):
         planned = self.planned(s)
