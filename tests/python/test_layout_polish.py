@@ -14,6 +14,7 @@ import unittest.mock
 import numpy as np
 
 from rsphere.fault import Fault
+from rsphere.layout.built import maintenance_in, write_lamps
 from rsphere.layout.design import Goal, read_design
 from rsphere.layout.polish import MOST_TILT, SHARES, TILTS, layout_text, neighbours, not_allowed, read_layout, spaces, tilted
 from rsphere.layout.room import read_polygons
@@ -96,6 +97,17 @@ class Places(InAFolder):
                 self.assertRegex(str(caught.exception), r"layout\.txt:" + (f"{line}: " if line else " ") + ".*" + re.escape(words))
         with self.assertRaisesRegex(Fault, "are not dimmed"):
             self.layout("spot 1 1 1 0 0 -1 0 .5\n", self.design("grid spot ceiling"))
+
+    def test_maintenance_in_files_of_luminaires(self):
+        """A report with a maintenance factor of its own took that of the layout once more, without a word."""
+        design = self.design("maintenance .7", "grid spot ceiling spacing 2 2.5 drop .1")
+        lamps, room = write_lamps(design, design.candidates, [0], [1.0], self.folder.name, "lamps"), os.path.join(self.folder.name, "room.rad")
+        self.assertEqual([maintenance_in(file) for file in (lamps, room, "none.rad")], [0.7, 1, 1])
+        for factor, words in ((0.9, r"lamps\.rad: the luminaires have a maintenance factor of 0\.7 in their light, and the report multiplies it by 0\.9"), (1, r"\A\Z")):
+            tasks = self.file(f"maintenance {factor}\ntask desk 34.2\neyes spacing 4\n", "tasks.txt")
+            run = run_here([built("rsphere-layout"), "--report", "--accuracy", ".5", "-b", "0", "--no-plan", "-o", self.folder.name, tasks, room, lamps])
+            self.assertRegex(run.stderr, words)
+            self.assertIn("desk", run.stdout)
 
     def test_no_others_where_goals_are_missed(self):
         """Layouts that missed the goals by more were listed as equally good."""

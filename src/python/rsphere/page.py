@@ -6,7 +6,8 @@ STYLE = """
 body { font: 15px/1.5 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 1.8em; }
 table { border-collapse: collapse; } td, th { padding: .2em .9em .2em 0; text-align: right; border-bottom: 1px solid #8884; }
-td:first-child, th:first-child { text-align: left; } td.words, th.words { text-align: left; }
+td:first-child, th:first-child { text-align: left; } td, th { white-space: nowrap; }
+td.words, th.words { text-align: left; white-space: normal; }
 .good, .bad { padding: .6em 1em; border-left: 5px solid #2a2; background: #2a22; } .bad { border-color: #c22; background: #c222; }
 .missed { color: #c22; font-weight: bold; } .note { opacity: .75; font-size: .9em; }
 figure { margin: 1em 0; background: white; overflow-x: auto; } svg { max-width: 100%; height: auto; } code { white-space: pre-wrap; }
@@ -17,13 +18,13 @@ figure { margin: 1em 0; background: white; overflow-x: auto; } svg { max-width: 
 
 
 def table(head, rows, words=1):
-    """rows: lists of cells; a cell that begins with ! is shown as missed. words: columns of text at the left."""
+    """rows: lists of cells; a cell that begins with ! is shown as missed. words: columns of text at the left; a last column without a head is text, too."""
     def cell(tag, i, text):
-        kinds = [k for k, there in (("words", i < words), ("missed", text.startswith("!"))) if there]
+        kinds = [k for k, there in (("words", i < words or i == len(head) - 1 and not head[-1]), ("missed", text.startswith("!"))) if there]
         return f'<{tag} class="{" ".join(kinds)}">{escape(text.removeprefix("!"))}</{tag}>'
-    lines = ["".join(cell("th", i, h) for i, h in enumerate(head))]
-    lines += ["".join(cell("td", i, c) for i, c in enumerate(row)) for row in rows]
-    return "<table>" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>\n"
+    first, *lines = ["".join(cell("th", i, h) for i, h in enumerate(head)), *("".join(cell("td", i, c) for i, c in enumerate(row)) for row in rows)]
+    # A browser repeats what is in thead on each printed page.
+    return f"<table><thead><tr>{first}</tr></thead>\n<tbody>" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</tbody></table>\n"
 
 
 def aligned(rows, left):

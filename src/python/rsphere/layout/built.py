@@ -1,5 +1,6 @@
 """The luminaires as built: scene text that rsphere, rtrace and RADIANCE's programs read."""
 import os
+import re
 
 import numpy as np
 
@@ -7,9 +8,23 @@ from ..fault import write_text
 from ..photometry.lamp_rad import pattern_text, surfaces_text, turning_words, word, write_data
 
 
+FACTOR = "maintenance factor of"  # and the number, in the first line of such a file
+HEAD = 300  # bytes, more than its first line
+
+
+def maintenance_in(file):
+    """The maintenance factor that the luminaires of a file have in their light already; 1 if write_lamps() did not write it."""
+    try:
+        with open(file, encoding="utf-8", errors="replace") as stream:
+            found = re.search(rf"\A# Luminaires by rsphere-layout\..* {FACTOR} ([0-9.]+)", stream.read(HEAD))
+    except OSError:
+        return 1.0  # what reads the scene says why
+    return float(found[1]) if found else 1.0
+
+
 def write_lamps(design, candidates, chosen, levels, folder, name):
     """Writes the chosen luminaires at their levels into FOLDER/NAME.rad, and their data files beside it."""
-    text = ("# Luminaires by rsphere-layout. The maintenance factor and the levels of the scene are in their light: a report on\n"
+    text = (f"# Luminaires by rsphere-layout. The {FACTOR} {design.maintenance:g} and the levels of the scene are in their light: a report on\n"
             "# them has \"maintenance 1\". Their data files are in the folder of this file, which RADIANCE needs in RAYPATH, as .:layout.\n")
     materials = {}
     for number, (j, level) in enumerate(zip(chosen, levels)):

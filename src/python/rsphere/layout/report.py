@@ -10,6 +10,7 @@ from ..fault import needs_light, write_text
 from ..page import Page, aligned, table
 from ..photometry.position_index import position_index
 from ..progress import PROGRESS
+from .built import maintenance_in
 from .dimming import dimmed
 from .forward import BEYOND
 from .glare import rating
@@ -98,6 +99,10 @@ class Report:
         self.tasks = read_tasks(given.goals, self.polygons)
         self.title = given.title or f"Lighting of {', '.join(os.path.basename(f) for f in given.room)}"
         self.units, self.rows, self.notes = self.tasks.units, [], []
+        for file in given.room:
+            if self.tasks.maintenance != 1 and maintenance_in(file) != 1:
+                warnings.warn(f"{file}: the luminaires have a maintenance factor of {maintenance_in(file):g} in their light, and the report multiplies it by "
+                              f"{self.tasks.maintenance:g}; leave out maintenance in {self.tasks.file}", stacklevel=2)
         self.floor_level = max(p.corners[:, 2].max() for p in self.tasks.floor)
 
     def run(self):
