@@ -2,6 +2,7 @@
 import io
 import os
 import unittest
+import unittest.mock
 import zipfile
 
 import numpy as np
@@ -93,6 +94,21 @@ class Formats(InAFolder):
         run = run_here([built("rsphere-luminaire"), "-o", self.folder.name, self.gldf()])
         self.assertRegex(run.stdout, r"\A# maker_strip from lamp\.gldf: 500 lm, 47\.5 W\n# the flux of the photometric file is")
         self.assertEqual(run.stderr, "")
+
+    def test_flux_of_scenes(self):
+        """The light that leaves the scene of a GLDF and of a TM-33 file, over all directions, is that of the file within .1%."""
+        cosines, weights = np.polynomial.legendre.leggauss(8)
+        gammas = np.radians(np.concatenate([22.5 * (1 + cosines) + begin for begin in (0, 45, 90, 135)]))  # the files have steps of 45 degrees
+        angles = 2 * np.pi * (np.arange(48) + 0.5) / 48
+        down = np.stack([np.outer(np.sin(gammas), f(angles)) for f in (np.cos, np.sin)] + [np.outer(-np.cos(gammas), angles > -1)], axis=-1)
+        steradians = np.tile(weights, 4) * np.radians(22.5) * np.sin(gammas) * 2 * np.pi / 48
+        for file, lumens in ((self.gldf(), 500), (self.file(TM33.replace("DATA", DATA), "lamp.xml"), None)):
+            scene = self.file(run_here([built("rsphere-luminaire"), "-o", self.folder.name, file]).stdout, "lamp.rad")
+            with unittest.mock.patch.dict(os.environ, RAYPATH=self.folder.name):
+                found = rsphere.Scene([scene]).trace(np.concatenate([100 * down, -down], axis=-1).reshape(-1, 6), irradiance_at_origin=True,
+                                                     ambient_bounces=0, dt=0, dj=0, ds=0.02).value
+            candela = rsphere.photometric(found).reshape(down.shape[:2]) * 100**2
+            self.assertAlmostEqual(candela.sum(axis=1) @ steradians / (lumens or read_luminaire(file).lumens()), 1, delta=1e-3)
 
     def test_hostile_gldf(self):
         bomb = b"<Root>" + b" " * (40 << 20) + b"</Root>"
