@@ -381,6 +381,8 @@ class Steps:
 
     def would_do(self, s, goal, kept):
         """Which limit would do in place of that of a goal of uniformity, UGR or most, if it gives way to those that are kept. None if that is not known."""
+        if not len(self.layout.chosen):
+            return None
         scene, factors = self.design.all_scenes()[s], [self.factors_as_built(k, {}) for k in range(len(self.daylight))]
         factor = factors[s].get((goal.kind, goal.target), 1.0)
 
