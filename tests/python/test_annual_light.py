@@ -5,12 +5,13 @@ import re
 import signal
 import subprocess
 import unittest
+import unittest.mock
 import xml.dom.minidom
 
 import numpy as np
 
-from rsphere.annual.light import LEFT_OUT, Light, SunGrid, check_sky
-from rsphere.annual.passes import LoweredPass, Pass, SUN_GROUPS, Settings
+from rsphere.annual.light import LEFT_OUT, TOO_COARSE, Light, SunGrid, check_sky, square, with_error
+from rsphere.annual.passes import LoweredPass, Pass, SUN_GROUPS, SUN_SOLID_ANGLE, Settings, product
 from rsphere.annual.sensors import draw_points, scene_files
 from rsphere.annual.shades import ALLOWED, ALONG, LOWERED, TRANSMITTANCE, UP, divided, group_of, states_by_rule
 from rsphere.annual.sun import MONTHS, sun_position
@@ -399,13 +400,52 @@ class Closed(InAFolder):
         suns = np.array([[np.sin(a) * 0.8, -np.cos(a) * 0.8, 0.6] for a in angles])
         one = Pass(room, "", self.folder.name, "pass", sensors, np.zeros((0, 6)), np.zeros((0, 3)), suns, Settings(bounces=4, sun_divisions=64, threads=1))
         grouped = np.array([one.estimate(i)[1] for i in range(12)])
-        together = one.reflected_together(suns, 12)
+        together = np.array([one.reflected_together(suns)(number) for number in range(12)])
         np.testing.assert_allclose(grouped[0][:, ::SUN_GROUPS], together[0][:, ::SUN_GROUPS], rtol=1e-9, err_msg="the first group has the first paths")
         self.assertTrue((grouped[0][:, 1::SUN_GROUPS] != together[0][:, 1::SUN_GROUPS]).any())
         light, noise = grouped.sum(axis=2), [kind.sum(axis=2).std(axis=0, ddof=1) for kind in (grouped, together)]
         self.assertLess(np.sqrt((noise[0] ** 2).mean()), 0.7 * np.sqrt((noise[1] ** 2).mean()))
         error = np.hypot(*noise) / np.sqrt(12)
         self.assertLess(np.abs((light.mean(axis=0) - together.sum(axis=2).mean(axis=0)) / error).max(), 4)
+
+    def test_interpolated_sun(self):
+        """What interpolation changes is stated as it is by many rays, and a grid that changes too much is refined, in the end to the hours' suns."""
+        sensors, hours = [[x, y, 0.8, 0, 0, 1] for x in (1, 2, 3) for y in (0.7, 2, 3.5)], list(clear_days([(m, d) for m in range(1, 13) for d in (6, 21)]))
+        settings = Settings(bounces=2, divisions=64, sun_divisions=64, seasons=3, hours=2)
+        light = self.light(self.ROOM, sensors, hours, estimates=1, settings=settings)
+        (mean, error), _ = light.changes[""]
+        self.assertLess(mean + 2 * error, TOO_COARSE**2)
+        self.assertFalse(light.grid.exact)
+        self.assertGreater(len(light.grid.directions), 3 * len(SunGrid(light.daylight.to_sun[light.sunny], PLACE[0], 3, 2, light.daylight.sun[light.sunny]).directions))
+        self.assertRegex(list(light.notes())[1], rf"between {len(light.grid.directions)} positions, which changes the light of an hour with sun by .*[0-9]%.*, and that of all")
+        with unittest.mock.patch("rsphere.annual.light.TOO_COARSE", 1):  # the coarse grid is kept
+            coarse = self.light(self.ROOM, sensors, hours, estimates=0, settings=settings)
+        (mean, error), _ = coarse.changes[""]
+        self.assertGreater(mean - 2 * error, (2 * TOO_COARSE) ** 2)
+        suns, power = light.daylight.to_sun[light.sunny], light.daylight.sun[light.sunny] / SUN_SOLID_ANGLE
+        one = Pass(self.scene(self.ROOM), "", self.folder.name, "pass", np.array(sensors), np.zeros((0, 6)), suns, coarse.grid.directions,
+                   Settings(bounces=2, divisions=64, sun_divisions=1024))
+        together = one.reflected_together(np.concatenate([suns, coarse.grid.directions]))
+        found = np.mean([together(number) for number in range(2)], axis=0)
+        lux = product(one.sky(0, 1024), light.daylight.luminance[light.sunny]) + (one.direct + found[:, : len(suns)]) * power
+        relative = (coarse.grid.between(found[:, len(suns) :]) - found[:, : len(suns)]) * power / lux
+        self.assertAlmostEqual(np.sqrt((relative**2).mean()), np.sqrt(mean), delta=0.2 * np.sqrt(mean))
+        with unittest.mock.patch("rsphere.annual.light.TOO_COARSE", 1e-9):
+            exact = self.light(self.ROOM, sensors, hours, estimates=1, settings=settings)
+        np.testing.assert_array_equal(exact.grid.directions, suns)
+        self.assertEqual(list(exact.notes())[1], f"Direct and reflected sun come from the true positions of the sun, {len(suns)} of them.")
+        sun = exact.year.open[0][:, light.sunny] - product(exact.passes[0][UP].first_sky, light.daylight.luminance[light.sunny]) - exact.year.direct[:, light.sunny]
+        self.assertAlmostEqual((sun / (found[:, : len(suns)] * power)).mean(), 1, delta=0.05)
+
+    def test_squares_without_noise(self):
+        """The mean of a square that is known by noisy values, and its error."""
+        random = np.random.default_rng(3)
+        true = random.normal(size=(5, 40)) * 0.1
+        found = np.array([with_error(square, true + random.normal(size=(6, 5, 40))) for _ in range(300)])
+        self.assertAlmostEqual(found[:, 0].mean(), (true**2).mean(), delta=3 * found[:, 0].std() / np.sqrt(300))
+        self.assertAlmostEqual(np.sqrt((found[:, 1] ** 2).mean()) / found[:, 0].std(), np.sqrt(2), delta=0.3, msg="both of its parts have all of the noise")
+        same = np.array([with_error(square, true + random.normal(size=(6, 1, 1))) for _ in range(300)])
+        self.assertGreater(np.sqrt((same[:, 1] ** 2).mean()), 0.8 * same[:, 0].std(), "noise that all hours share")
 
     def test_blinds_that_are_not_divided(self):
         """Panes of other shapes, and rooms with other openings, have rays through all of the blinds."""

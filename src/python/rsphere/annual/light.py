@@ -2,7 +2,7 @@
 
 - The sky: patches of reinhart.cal, of radiance 1; all bounces.
 - The sun: direct light by shadow rays to each of its positions in the hours, exact but for its width of half a degree;
-  reflected light from positions on a grid of hours and seasons, between which it is interpolated.
+  reflected light from positions on a grid of hours and seasons, between which it is interpolated, as fine as this asks for.
 - Shades: each group of windows in either state, while all other groups are closed; what passes through closed ones is none.
 """
 import os
@@ -15,16 +15,19 @@ import rsphere
 
 from ..fault import Fault, write_text
 from ..progress import PROGRESS
-from .passes import FACTOR, SKY, SUN_SOLID_ANGLE, LoweredPass, Pass, product
+from .passes import FACTOR, FEW, SKY, SUN_SOLID_ANGLE, LoweredPass, Pass, product
 from .shades import LOWERED, UP, states_by_rule
 from .sky import daylight_of, with_sun
 from .verdicts import FROM, SURE, UNTIL, Year, estimated
 
 DECLINATION = 23.45  # degrees, the largest
 DIM = 0.02  # of the mean light; darker sensors are inside of something
-NEGLIGIBLE, FEW = 1e-3, 64  # light with all groups closed, by that of the scene as it is drawn; rays of a sensor by which it is known
+NEGLIGIBLE = 1e-3  # light with all groups closed, by that of the scene as it is drawn
 LEFT_OUT = 0.005  # of the sun's light may come from positions that are not computed: a seventh of them
-JUDGED = 48  # hours in which reflected sun is computed from the true position, too, by two estimates
+JUDGED = 192  # hours in which reflected sun is computed from the true position, too
+REFLECTIONS = 2  # of the sun in these: they make most of what interpolation changes, and a fifth of the noise
+JUDGES, MOST_JUDGES = 4, 32  # independent estimates of these: as many are added until it is sure whether interpolation changes more than
+TOO_COARSE = 0.01  # of the light of an hour (rms); if it may, the grid is refined
 ESTIMATES = 8  # independent sets of coefficients, from which standard errors follow
 
 
@@ -54,6 +57,9 @@ class SunGrid:
         self.directions = np.stack([*across, up], axis=1)
         if light is not None and len(to_sun):
             self.leave_out(to_sun, np.bincount(self.index.ravel(), (self.weights * light[:, None]).ravel(), len(nodes)))
+        self.exact = len(self.directions) >= len(to_sun)
+        if self.exact:
+            self.directions, self.index, self.weights = to_sun, np.arange(len(to_sun))[:, None], np.ones((len(to_sun), 1))
 
     def leave_out(self, to_sun, light):
         """Leaves out the positions with least light that together have LEFT_OUT of it."""
@@ -70,7 +76,7 @@ class SunGrid:
 
     def between(self, coefficients):
         """Of coefficients (sensors, nodes): those of the directions, (sensors, directions)."""
-        return sum(coefficients[:, self.index[:, k]] * self.weights[:, k] for k in range(4))
+        return sum(coefficients[:, index] * weights for index, weights in zip(self.index.T, self.weights.T))
 
 
 def check_sky(files, polygons, folder):
@@ -89,10 +95,28 @@ def check_sky(files, polygons, folder):
         raise Fault("the scene has a sky, or something above all of its polygons (or a file of blinds has it): leave it out; the sky is that of the weather")
 
 
-def over_hours(values):
-    """The mean of values (sensors, hours), and its standard error by the spread between hours."""
-    hours = values.mean(axis=0)
-    return hours.mean(), hours.std() / np.sqrt(max(1, len(hours) - 1))
+def with_error(function, values):
+    """The mean of function of values (estimates, sensors, hours), which gives (sensors, hours), and its standard error: by the spread between
+    hours, and by leaving out one estimate after the other, as all hours have the same paths."""
+    hours, n = function(values).mean(axis=0), len(values)
+    parts = np.array([function(np.delete(values, i, axis=0)).mean() for i in range(n)])
+    return hours.mean(), np.hypot(hours.std() / np.sqrt(max(1, len(hours) - 1)), np.sqrt((n - 1) / n * ((parts - parts.mean()) ** 2).sum()))
+
+
+def square(values):
+    """The square of the mean of independent values, without that of their noise: the mean product of two of them."""
+    return (values.sum(axis=0) ** 2 - (values**2).sum(axis=0)) / (len(values) * (len(values) - 1))
+
+
+def said(mean, error):
+    """Words for the root of a mean square of relative changes that has a standard error."""
+    most = np.sqrt(max(0, mean) + SURE * error)
+    return f"{np.sqrt(mean):.2%} (rms; less than {most:.2%} by twice the noise)" if mean > 0 else f"less than {most:.2%} (rms, twice the noise)"
+
+
+def by_states(parts, base, states):
+    """All light: of Light.parts_of(), by states (hours, groups)."""
+    return base + sum(np.where(states[:, g] == LOWERED, part[-1], part[UP]) for g, part in enumerate(parts))
 
 
 def occupied_hours(rows):
@@ -112,22 +136,31 @@ class Light:
         rows = np.array(weather.hours, float).reshape(-1, 5)
         sunny = self.sunny = np.flatnonzero(self.daylight.sun)
         to_sun = self.daylight.to_sun[sunny]
-        grid = self.grid = SunGrid(to_sun, weather.place[0], settings.seasons, settings.hours, self.daylight.sun[sunny])
         # Hours by which the grid is judged: each stands for an equal part of the sun's light.
         light = np.cumsum(self.daylight.sun[sunny])
         self.judged = np.searchsorted(light, (np.arange(JUDGED) + 0.5) / JUDGED * light[-1]) if len(sunny) else sunny
         self.year = Year(rows[lit, :3], None, None, None, self.daylight.diffuse, self.daylight.sun, weights, len(rows),
                          occupied_hours(rows))
-        self.sums, self.counts, self.states, self.off, self.judged_lux = None, np.zeros(ESTIMATES, int), None, None, []
+        self.sums, self.counts, self.states = None, np.zeros(ESTIMATES, int), None
         self.idle = []  # names of groups whose blinds change nothing
         self.at_eyes = None  # lx by the observers of alpha_opic: (estimates, rows of by_observers(), hours), shades by the rule of LM-83
         self.open_at_eyes = None  # the same, shades up
+        self.groups = groups
+        seasons, step = settings.seasons, settings.hours
+        while True:
+            self.grid = SunGrid(to_sun, weather.place[0], seasons, step, self.daylight.sun[sunny])
+            self.make_passes(files, folder, sensors, np.array(eyes), to_sun)
+            self.changes = {}
+            if self.grid.exact or settings.radiance or not self.too_coarse():
+                break
+            seasons, step = 2 * seasons - 1, step / 2
 
-        self.groups, n = groups, len(groups)
+    def make_passes(self, files, folder, sensors, eyes, to_sun):
+        settings, groups, n = self.settings, self.groups, len(self.groups)
 
         def made(kind, name, text, *of, files=files, own=settings):
             PROGRESS.advance()
-            return kind(files, text, *of, folder, name, sensors, np.array(eyes), to_sun, grid.directions, own)
+            return kind(files, text, *of, folder, name, sensors, eyes, to_sun, self.grid.directions, own)
 
         def lowered(name, group, closed=""):
             """The group's blinds lowered, the other groups closed."""
@@ -150,8 +183,7 @@ class Light:
             closed = ["".join(g.closed for g in groups if g is not group) for group in groups]
             self.passes = [[made(Pass, f"open{i}", closed[i]), lowered(f"lowered{i}", g, closed[i])]
                            for i, g in enumerate(groups)]
-        self.base_direct = self.in_hours(self.base.direct) if self.base else 0
-        self.direct = np.array([[self.direct_of(p) for p in states] for states in self.passes])
+        self.direct, self.base_direct = self.parts_of(lambda one: self.in_hours(one.direct))
         self.year.direct = (self.direct[:, UP].sum(axis=0) + self.base_direct)[: len(sensors)]
 
     def in_hours(self, coefficients):
@@ -160,9 +192,11 @@ class Light:
         lux[:, self.sunny] = coefficients * (self.daylight.sun[self.sunny] / SUN_SOLID_ANGLE)
         return lux
 
-    def direct_of(self, one):
-        """lx of direct sun through the windows of a pass that are not closed in all."""
-        return self.in_hours(one.direct) - (self.base_direct if one.has_base else 0)
+    def parts_of(self, light):
+        """What comes through the windows of each group in each state, (groups, states, ...), and through all others. light: a function of a Pass."""
+        base = light(self.base) if self.base else 0
+        parts = np.array([[light(p) - (base if p.has_base else 0) for p in states] for states in self.passes])
+        return parts, np.broadcast_to(base, parts.shape[2:])
 
     def lux_of(self, one, number):
         """One estimate of all light of a pass, but the direct sun: (sensors, hours)."""
@@ -170,27 +204,57 @@ class Light:
         lux = product(sky, self.daylight.luminance)
         power = self.daylight.sun[self.sunny] / SUN_SOLID_ANGLE
         lux[:, self.sunny] += self.grid.between(sun) * power
-        if one is self.passes[0][UP]:
-            self.judged_lux.append(lux[: len(self.year.weights), self.sunny[self.judged]])
         return lux
 
     def judge(self):
-        """Finds by how much interpolation changes the reflected sun (lx) in the judged hours: (estimates, sensors, hours)."""
+        """A function of numbers, that of one estimate of the judged hours: as of parts_of(), of lx of reflected sun from the true positions,
+        and of what interpolation changes, (2, sensors, hours)."""
+        hours = self.sunny[self.judged]
         nodes, index = np.unique(self.grid.index[self.judged], return_inverse=True)
-        to_sun = np.concatenate([self.grid.directions[nodes], self.daylight.to_sun[self.sunny[self.judged]]])
-        sun = self.passes[0][UP].reflected_together(to_sun, 2)[:, : len(self.year.weights)]
-        between = np.einsum("eshk,hk->esh", sun[:, :, index.reshape(-1, 4)], self.grid.weights[self.judged])
-        self.off = (between - sun[:, :, len(nodes) :]) * self.daylight.sun[self.sunny[self.judged]] / SUN_SOLID_ANGLE
+        index, weights = len(hours) + index.reshape(-1, 4), self.grid.weights[self.judged]
+        to_sun, power = np.concatenate([self.daylight.to_sun[hours], self.grid.directions[nodes]]), self.daylight.sun[hours] / SUN_SOLID_ANGLE
+        together = {}  # by Pass
+
+        def reflected(one, number):
+            PROGRESS.advance()
+            if one not in together:
+                together[one] = one.reflected_together(to_sun)
+            sun = together[one](number, min(REFLECTIONS, self.settings.bounces))
+            exact = sun[:, : len(hours)] * power
+            return np.array([exact, np.einsum("shk,hk->sh", sun[:, index], weights) * power - exact])
+
+        return lambda number: self.parts_of(lambda one: reflected(one, number))
+
+    def too_coarse(self):
+        """Whether interpolation may change the light of hours with sun by more than TOO_COARSE. Finds by how much: self.changes."""
+        hours, w, judge, found = self.sunny[self.judged], self.year.weights, self.judge(), []
+        PROGRESS.begin("Positions of the sun", JUDGES * self.pass_count())
+        direct, base_direct = self.direct[:, :, : len(w), hours], self.base_direct[: len(w), hours]
+        sky, base_sky = self.parts_of(lambda one: product(one.first_sky[: len(w)], self.daylight.luminance[hours]))
+        while len(found) < MOST_JUDGES:
+            found += [judge(n) for n in range(len(found), len(found) + JUDGES)]
+            (sun, off), (base_sun, base_off) = (np.moveaxis(np.array(light), -3, 0) for light in zip(*found))
+            parts, base = sky + direct + sun.mean(axis=0), base_sky + base_direct + base_sun.mean(axis=0)
+            states = {"": np.zeros((len(hours), len(parts)), int)}
+            if len(self.passes[0]) > 1:
+                states["with shades"] = states_by_rule(direct, np.einsum("i,gsih->gsh", w, parts), w)
+            for how, of in states.items():
+                lux = by_states(parts, base, of)
+                bright = lux.mean(axis=1) > DIM * lux.mean()
+                change = by_states(np.moveaxis(off, 0, -3), base_off, of)[:, bright]
+                self.changes[how] = with_error(square, change / lux[bright]), with_error(lambda x: x.mean(axis=0), change / lux.mean())
+            least, most = (max(mean + side * SURE * error for (mean, error), _ in self.changes.values()) for side in (-1, 1))
+            if least > TOO_COARSE**2 or most <= TOO_COARSE**2:
+                break
+            PROGRESS.count += JUDGES * self.pass_count()
+        return most > TOO_COARSE**2
 
     def add(self):
         """One more estimate, in Year's stacks."""
         number = int(self.counts.sum())
-        base = self.lux_of(self.base, number) if self.base else 0
-        parts = np.array([[self.lux_of(p, number) - (base if p.has_base else 0) for p in states] for states in self.passes]) + self.direct
-        base = base + self.base_direct
+        parts, base = self.parts_of(lambda one: self.lux_of(one, number))
+        parts, base = parts + self.direct, base + self.base_direct
         if number == 0:
-            if len(self.judged) and not self.settings.radiance:
-                self.judge()
             # By the light of the sky alone: reflected sun has more rays where blinds are lowered.
             self.idle = [g.name for g, (up, lowered) in zip(self.groups, self.passes) if np.array_equal(up.first_sky, lowered.first_sky)
                          or lowered.first_sky.sum() < NEGLIGIBLE * g.transmittance * up.first_sky.sum()] if self.groups else []
@@ -199,7 +263,7 @@ class Light:
             self.states = states_by_rule(self.direct[:, :, : len(w)], np.einsum("i,gsih->gsh", w, parts[:, :, : len(w)]), w)
         lux = up = base + parts[:, UP].sum(axis=0)
         if self.states is not None:
-            lux = base + sum(np.where(self.states[:, g] == LOWERED, part[LOWERED], part[UP]) for g, part in enumerate(parts))
+            lux = by_states(parts, base, self.states)
         if self.sums is None:
             self.sums = np.zeros((2, ESTIMATES, *lux.shape), np.float32)
         self.sums[:, number % ESTIMATES] += lux, up
@@ -212,9 +276,7 @@ class Light:
         """Leaves out all sensors but some, before the first estimate; there must be no eyes."""
         for one in [self.base] * bool(self.base) + [p for states in self.passes for p in states]:
             one.keep(rows)
-        self.direct, self.year.direct = self.direct[:, :, rows], self.year.direct[rows]
-        if self.base:
-            self.base_direct = self.base_direct[rows]
+        self.direct, self.base_direct, self.year.direct = self.direct[:, :, rows], self.base_direct[rows], self.year.direct[rows]
         self.year.weights = np.full(len(self.year.direct), 1 / max(1, len(self.year.direct)))
 
     def pass_count(self):
@@ -229,14 +291,13 @@ class Light:
     def notes(self):
         """Sentences on errors and shades."""
         yield f"{self.counts.sum()} independent estimates; the light of the year at a sensor has a standard error of {self.error():.2%} (rms)."
-        if self.off is not None:
-            lux = np.maximum(1e-9, np.mean(self.judged_lux, axis=0))
-            # Products of different estimates are free of the squared noise.
-            square, noise = over_hours(np.prod(self.off, axis=0) / lux**2)
-            by = f"{np.sqrt(square):.2%} (rms)" if square > SURE * noise else f"less than {np.sqrt(max(0, square) + SURE * noise):.1%} (rms, twice the noise)"
-            change, noise = over_hours(self.off.mean(axis=0) / lux.mean())
+        if self.grid.exact and len(self.sunny):
+            yield f"Direct and reflected sun come from the true positions of the sun, {len(self.grid.directions)} of them."
+        elif self.changes:
+            by = ", ".join(f"{how} by {said(*rms)}".strip() for how, (rms, _) in self.changes.items())
+            (change, noise) = self.changes[""][1]
             yield (f"Direct sun is exact. Reflected sun is interpolated between {len(self.grid.directions)} positions, which changes the light of an "
-                   f"hour with sun by {by}, and that of all by {change:+.2%} +- {noise:.2%}.")
+                   f"hour with sun {by}, and that of all by {change:+.2%} +- {noise:.2%}.")
         if self.states is None:
             yield "There are no shades: name windows by --shades, so that the rule of LM-83 lowers blinds."
         else:

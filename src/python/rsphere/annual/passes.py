@@ -21,6 +21,7 @@ SUN_GROUPS = 8  # of suns, each with paths of its own: the noise of a year has a
 # Behind parts of blinds nearly all of the noise is in the rays from the sensors to the parts: these rays by those of a sensor, and the
 # weight at which Russian roulette ends their paths by SKY_WEIGHT; those of a sensor by the rays of a part. Least noise in two rooms.
 INSIDE, INSIDE_WEIGHT, OUTSIDE = 4, 4, 8
+FEW = 64  # rays of a sensor by which it is known whether light changes
 MOST_AT_ONCE = 1 << 21  # coefficients
 STEPS = 0.7548776662466927, 0.5698402909980532  # of places on parts of blinds, which fill a square evenly: 1/g and 1/g^2, g^3 = g + 1
 
@@ -70,9 +71,9 @@ class Scenes:
         divisions = divisions or self.settings.divisions
         return dict(ambient_divisions=divisions, limit_weight=SKY_WEIGHT / divisions, ambient_bounces=bounces or self.settings.bounces, rotation=number)
 
-    def sun_options(self, number, share=1):
+    def sun_options(self, number, share=1, bounces=None):
         divisions = -(-self.settings.sun_divisions // share)
-        return dict(ambient_divisions=divisions, limit_weight=SUN_WEIGHT / divisions, ambient_bounces=self.settings.bounces, rotation=number)
+        return dict(ambient_divisions=divisions, limit_weight=SUN_WEIGHT / divisions, ambient_bounces=bounces or self.settings.bounces, rotation=number)
 
 
 def names_of(suns):
@@ -123,15 +124,17 @@ class Pass:
         """One estimate of the light of all patches."""
         return self.contributions(self.by_sky, **self.scenes.sky_options(number, divisions, bounces))
 
+    @cached_property
+    def first_sky(self):
+        return self.sky(0)
+
     def brightest_sun(self, divisions, bounces):
         """As of LoweredPass, beside `direct`: what a sun sends by reflections is never bright."""
         return 0
 
     def estimate(self, number):
         """One estimate of the light of all patches, and of the reflected light of the sun. number: of the estimate."""
-        sky = self.sky(number)
-        if number == 0:
-            self.first_sky = sky
+        sky = self.sky(number) if number else self.first_sky
         PROGRESS.advance()
         sun, suns = -self.of_suns[:, len(self.to_sun) :], names_of(self.reflected_from)
         for k in range(min(SUN_GROUPS, len(suns))):
@@ -139,11 +142,12 @@ class Pass:
         PROGRESS.advance()
         return sky, sun
 
-    def reflected_together(self, to_sun, estimates):
-        """The reflected light of any suns, by paths that they share: (estimates, rows, suns)."""
+    def reflected_together(self, to_sun):
+        """A function of numbers and bounces, that of the reflected light of any suns at the sensors, by paths that they share: (sensors, suns)."""
         scene, suns = self.scenes.scene("together", self.text + sun_text(to_sun)), names_of(to_sun)
-        direct = self.contributions(scene, suns, ambient_bounces=0)
-        return np.array([self.contributions(scene, suns, **self.scenes.sun_options(number)) for number in range(estimates)]) - direct
+        light = lambda **options: self.scenes.coefficients(scene, self.sensors, suns, dv=True, **options) @ VISIBLE  # noqa: E731
+        direct = light(ambient_bounces=0)
+        return lambda number, bounces=None: light(**self.scenes.sun_options(number, bounces=bounces)) - direct
 
 
 class LoweredPass:
@@ -198,10 +202,24 @@ class LoweredPass:
     def sky(self, number, divisions=None, bounces=None):
         return self.of_sky(self.through(number, divisions, bounces), number, divisions, bounces)
 
+    @cached_property
+    def first(self):
+        return self.through(0)
+
+    @cached_property
+    def first_sky(self):
+        return self.of_sky(self.first, 0)
+
     def of_suns(self, light, number, **options):
         if not len(self.reflected_from):
             return np.zeros((len(self.direct), 0))
         return light(self.by_sun, names_of(self.reflected_from), None, dict(self.scenes.sun_options(number, OUTSIDE), **options))
+
+    def reflected_together(self, to_sun):
+        """As of Pass; by few rays from the sensors to the parts."""
+        scene = self.scenes.scene("together", self.text + self.group.further + sun_text(to_sun))
+        of = scene, names_of(to_sun), None
+        return lambda number, bounces=None: self.through(number, FEW)(*of, self.scenes.sun_options(number, OUTSIDE, bounces))[: len(self.sensors)]
 
     def brightest_sun(self, divisions, bounces):
         """About the most that one sun of radiance 1 gives the rows."""
@@ -209,10 +227,8 @@ class LoweredPass:
         return self.of_suns(light, 0, ambient_divisions=divisions, ambient_bounces=bounces).max(axis=1, initial=0)
 
     def estimate(self, number):
-        light = self.through(number)
-        sky = self.of_sky(light, number)
-        if number == 0:
-            self.first_sky = sky
+        light = self.through(number) if number else self.first
+        sky = self.of_sky(light, number) if number else self.first_sky
         PROGRESS.advance()
         sun = self.of_suns(light, number)
         PROGRESS.advance()
