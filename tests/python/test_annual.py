@@ -111,6 +111,12 @@ class Annual(unittest.TestCase):
         said = self.light(WEA.replace("time_zone -15", "time_zone 165") + "\n".join(DAY))[1]
         self.assertRegex(said, "[0-9]+% of the direct light is at hours without a sun or without diffuse light, such as 6-1 at [0-9.]+ h; are its latitude")
 
+    def test_direct_light_of_nights(self):
+        """Some files have direct light without diffuse light before and after the day: it is not the place that is wrong."""
+        light, said = self.light(WEA + "\n".join(DAY).replace("6 1 19.5 0 0", "6 1 19.5 300 0"))
+        self.assertIn("8% of the direct light is at hours without diffuse light, such as 6-1 at 19.5 h, and left out\n", said)
+        self.assertEqual(light, self.light(WEA + "\n".join(DAY))[0])
+
     def test_kinds_of_coefficients(self):
         wea = WEA + "\n".join(DAY)
         for made in (coefficients(FORMAT="ascii"), coefficients(FORMAT="double"), coefficients(NCOMP="1", values=146)):

@@ -134,8 +134,13 @@ def check_weather(file, weather, dark_sun):
     if late > LATE:
         at = np.flatnonzero(dark_sun & (light[:, kind] > 0))[0]
         first = weather.hours[at]
-        doubt(file, weather.lines[at], f"{late:.0%} of the {('direct', 'diffuse')[kind]} light is at hours without a sun or without diffuse light, such as {first[0]}-{first[1]} at "
-              f"{first[2]:g} h; are its latitude, longitude and time zone right?", late > TOO_LATE, weather)
+        when = f"such as {first[0]}-{first[1]} at {first[2]:g} h"
+        up = light[dark_sun & (light[:, 1] > 0)].sum(axis=0) / np.maximum(light.sum(axis=0), 1e-9)
+        if (up <= LATE).all():  # the file itself says that it was night
+            doubt(file, weather.lines[at], f"{late:.0%} of the direct light is at hours without diffuse light, {when}, and left out", late > TOO_LATE, weather)
+        else:
+            doubt(file, weather.lines[at], f"{late:.0%} of the {('direct', 'diffuse')[kind]} light is at hours without a sun or without diffuse light, {when}; are its latitude, "
+                  "longitude and time zone right?", late > TOO_LATE, weather)
     if missing:
         warn(file, f"{missing} of {n + missing} hours have no irradiance (9999) and are left out")
     if n + missing < HOURS_OF_YEAR:
