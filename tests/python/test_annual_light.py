@@ -505,6 +505,8 @@ class Closed(InAFolder):
         self.assertIn("16 of 16 get no light in the whole year", run.stderr)
         self.assertEqual(run.stderr.count("\n"), 2, run.stderr)
         self.assertNotIn("nan", run.stdout)
+        light = self.light(BLACK + "black sphere s 0 0 4 0 0 0 9\n", [[0, 0, 0, 0, 0, 1]], list(clear_days([(m, d) for m in range(1, 13) for d in range(1, 29)])), estimates=2)
+        self.assertIn("which changes the light of an hour with sun by less than 0.00% (rms, twice the noise), and that of all by +0.00% +- 0.00%", " ".join(light.notes()))
 
     def test_accuracy_adds_estimates(self):
         """Until noise turns no verdict, or the light of the year at a sensor is known as well as asked for."""

@@ -242,8 +242,8 @@ class Light:
             if len(self.passes[0]) > 1:
                 states["with shades"] = states_by_rule(direct, np.einsum("i,gsih->gsh", w, parts), w)
             for how, of in states.items():
-                lux = by_states(parts, base, of)
-                bright = lux.mean(axis=1) > DIM * lux.mean()
+                lux = np.maximum(1e-9, by_states(parts, base, of))
+                bright = lux.mean(axis=1) >= DIM * lux.mean()
                 change = by_states(np.moveaxis(off, 0, -3), base_off, of)[:, bright]
                 self.changes[how] = with_error(square, change / lux[bright]), with_error(lambda x: x.mean(axis=0), change / lux.mean())
             least, most = (max(mean + side * SURE * error for (mean, error), _ in self.changes.values()) for side in (-1, 1))
