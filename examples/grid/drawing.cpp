@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "companions/report/markup.h"
+#include "markup.h"
 
 namespace grid {
 namespace {

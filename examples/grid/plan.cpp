@@ -18,11 +18,10 @@
 #include <vector>
 
 #include "area.h"
-#include "companions/report/page.h"
-#include "companions/report/plot.h"
 #include "drawing.h"
 #include "isolines.h"
 #include "layout.h"
+#include "markup.h"
 #include "rad_parser/scene_file.h"
 #include "rtrace.h"
 

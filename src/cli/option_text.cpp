@@ -77,7 +77,8 @@ std::string helpLine(const OptionEntry& entry, Options& values) {
                                                     : " ",
                                       entry.arguments);
   const std::string value = shortValue(entry, values);
-  return fmt::format("  {:<20} {}{}\n", use,
+  // Two blanks at least, by which the arguments are told from the text.
+  return fmt::format("  {:<20} {}{}{}\n", use, use.size() < 20 ? "" : " ",
                      !entry.help.empty() ? entry.help
                      : isSwitch          ? toggledBy(entry.remark)
                                          : entry.remark,

@@ -80,6 +80,15 @@ std::string encode(const std::string& name, int width, int height, bool radiance
 extern "C" {
 __attribute__((visibility("default"))) extern const ImageCodec rsphereImageCodec;
 const ImageCodec rsphereImageCodec{formatOf, encode};
+
+// encode() for Python: hands the contents of the file to `take`, or an error.
+__attribute__((visibility("default"))) void rsphereEncode(const char* name, int width, int height,
+                                                          int radiance, const float* pixels,
+                                                          void (*take)(const char*, size_t, const char*)) {
+  std::string bytes;
+  const std::string error = encode(name, width, height, radiance != 0, pixels, bytes);
+  take(bytes.data(), bytes.size(), error.empty() ? nullptr : error.c_str());
+}
 }
 
 }  // namespace rsphere

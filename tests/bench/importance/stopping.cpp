@@ -23,12 +23,12 @@
 
 #include "base/random.h"
 #include "cli/option_table.h"
-#include "companions/measure/statistics.h"
 #include "estimate/estimator.h"
 #include "estimate/two_halves.h"
 #include "rad_parser/scene_file.h"
 #include "scene/build_scene.h"
 #include "tests/bench/support/bench_main.h"
+#include "tests/unit/support/spread.h"
 
 namespace rsphere {
 namespace {

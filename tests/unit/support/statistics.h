@@ -8,7 +8,7 @@
 
 #include "base/color.h"
 #include "base/random.h"
-#include "companions/measure/statistics.h"
+#include "tests/unit/support/spread.h"
 
 namespace rsphere {
 

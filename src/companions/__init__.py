@@ -1,0 +1,1 @@
+"""What rsphere-compare and rsphere-trade consist of: programs around rsphere, which they run."""
