@@ -101,7 +101,8 @@ def run_program(program, body, fault_status=0):
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return STATUS["signal"]  # as in rtrace
-    except Fault as fault:
+    except (Fault, MemoryError) as error:
+        fault = error if isinstance(error, Fault) else Fault("out of memory", "system")
         messages.report(f"{fault.kind} - {fault}")
         return fault_status if fault_status and fault.kind != "signal" else STATUS[fault.kind]
 
