@@ -14,13 +14,13 @@
 #include "answer/progress.h"
 #include "base/tuned.h"
 #include "cli/option_table.h"
-#include "cli/print_request.h"
 #include "cli/program.h"
 #include "process/memory_limit.h"
 #include "process/stop_signals.h"
 #include "rcontrib/contribution_run.h"
 #include "records/record_reader.h"
 #include "records/record_writer.h"
+#include "silhouettes/special_objects.h"
 
 namespace rsphere {
 namespace {
@@ -74,37 +74,35 @@ void answer(const Options& given, const Messages& messages, StopSignals& signals
              end);
 }
 
-// Runs the program if it is called by the name rcontrib.
-int contributions(int argc, char** argv) {
-  limitMemory();
-  ContributionOptions options;
-  return runCompanion(contributionCompanion(), argc, argv, options,
-                      [&](std::span<const UsedOption>, const Messages& messages, StopSignals& signals) {
-                        finish(options);
-                        runContributions(options, messages, signals);
-                        return 0;
-                      });
-}
-
 }  // namespace
 }  // namespace rsphere
 
 int main(int argc, char** argv) {
   using namespace rsphere;
-  const std::string called = argc > 0 ? argv[0] : "rsphere";
+  const std::vector<std::string> words(argv, argv + argc);
+  const std::string called = words.empty() ? "rsphere" : words[0];
   const std::string program = called.substr(called.rfind('/') + 1);
-  if (program == "rcontrib") return contributions(argc, argv);
+  const Companion* const companion = program == "rcontrib" ? &contributionCompanion() : nullptr;
   Messages messages(program);
   return exitStatus(messages, [&] {
     limitMemory();
     if (const std::string unknown = tuning::unknownName(); !unknown.empty())
       throw rad::Error("RSPHERE_TUNING: no tuning constant \"" + unknown + "\"");
     StopSignals signals(program);
-    Options options = parseOptions(argc, argv);
+    ContributionOptions options;
+    if (companion)
+      parseCompanion(words, *companion, options);
+    else
+      static_cast<Options&>(options) = parseOptions(words);
     messages.use(options.messages, commandLine(options, true));
     signals.reportTo(messages.descriptor());
-    if (options.request != Request::answers) return printRequest(options, messages);
-    answer(options, messages, signals);
+    if (options.request != Request::answers) return printRequest(options, messages, companion);
+    if (companion) {
+      finish(options);
+      runContributions(options, messages, signals);
+    } else {
+      answer(options, messages, signals);
+    }
     return 0;
   });
 }

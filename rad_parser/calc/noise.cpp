@@ -32,29 +32,13 @@ constexpr std::array<uint8_t, 512> kTwice = [] {
 
 // The directions from the centre of a cube to the midpoints of its 12 edges. Four of them are repeated to
 // make 16.
-struct Gradient {
-  double x, y, z;
-};
-constexpr std::array<Gradient, 16> kGradients = {{{1, 1, 0},
-                                                  {-1, 1, 0},
-                                                  {1, -1, 0},
-                                                  {-1, -1, 0},
-                                                  {1, 0, 1},
-                                                  {-1, 0, 1},
-                                                  {1, 0, -1},
-                                                  {-1, 0, -1},
-                                                  {0, 1, 1},
-                                                  {0, -1, 1},
-                                                  {0, 1, -1},
-                                                  {0, -1, -1},
-                                                  {1, 1, 0},
-                                                  {0, -1, 1},
-                                                  {-1, 1, 0},
-                                                  {0, -1, -1}}};
+constexpr std::array<int8_t, 3 * 16> kGradients = {
+    1, 1, 0, -1, 1,  0, 1, -1, 0,  -1, -1, 0,  1, 0, 1, -1, 0,  1, 1,  0, -1, -1, 0,  -1,
+    0, 1, 1, 0,  -1, 1, 0, 1,  -1, 0,  -1, -1, 1, 1, 0, 0,  -1, 1, -1, 1, 0,  0,  -1, -1};
 
 double ramp(uint8_t hash, double x, double y, double z) {
-  const Gradient& g = kGradients[hash & 15];
-  return g.x * x + g.y * y + g.z * z;
+  const int8_t* const g = &kGradients[3 * size_t{hash & 15u}];
+  return g[0] * x + g[1] * y + g[2] * z;
 }
 
 double smooth(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }

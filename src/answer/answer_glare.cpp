@@ -3,38 +3,51 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "estimate/glare_estimator.h"
 #include "process/threads.h"
 
 namespace rsphere {
 
-GlareWorkers::GlareWorkers(const Transport& transport, const AnswerOptions& options)
-    : estimator_(transport, options.sphere) {
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces_.emplace_back(estimator_.means());
+namespace {
+
+// The estimator of glare (-Su), with a workspace for each thread of -n.
+struct GlareWorkers {
+  GlareWorkers(const Transport& transport, const AnswerOptions& options)
+      : estimator(transport, options.sphere) {
+    for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces.emplace_back(estimator.means());
+  }
+  GlareEstimator estimator;
+  std::vector<SphereEstimator::Workspace> workspaces;
+};
+
+Gaze gazeOf(const Record& record) {
+  const V3d along(record.numbers[3], record.numbers[4], record.numbers[5]);
+  if (const std::optional<Gaze> gaze = Gaze::upright(along)) return *gaze;
+  throw rad::Error(
+      fmt::format("record {}: the gaze {:g} {:g} {:g} {}", record.index + 1, along.x, along.y, along.z,
+                  along == V3d(0, 0, 0) ? "has no length: it is a direction, not a point"
+                                        : "is vertical, so that the view has no upward direction: tilt it"));
 }
 
-GlareAnswer GlareWorkers::answer(const Record& record, unsigned worker) {
-  const V3d eye(record.numbers[0], record.numbers[1], record.numbers[2]);
-  const V3d along(record.numbers[3], record.numbers[4], record.numbers[5]);
-  const std::optional<Gaze> gaze = Gaze::upright(along);
-  if (!gaze)
-    throw rad::Error(fmt::format(
-        "record {}: the gaze {:g} {:g} {:g} {}", record.index + 1, along.x, along.y, along.z,
-        along == V3d(0, 0, 0) ? "has no length: it is a direction, not a point"
-                              : "is vertical, so that the view has no upward direction: tilt it"));
-  return estimator_.estimate(eye, *gaze, workspaces_[worker]);
-}
+}  // namespace
 
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
-                         const rad::Warn& warn, RunSummary& summary) {
+                         const rad::Warn& warn, RunSummary& summary, const AnswerWriter* sources) {
   const auto workers = std::make_shared<GlareWorkers>(transport, options);
   if (isDark(transport.prepared())) warn("no light sources found");
-  return [&, workers](const Record& record, unsigned worker, std::string& bytes) {
-    const GlareAnswer answer = workers->answer(record, worker);
+  const bool indices = !options.sphere.everyDirection;
+  const AnswerWriter* const list = indices ? sources : &writer;
+  return [&, workers, indices, list](const Record& record, unsigned worker, std::string& bytes) {
+    const V3d eye(record.numbers[0], record.numbers[1], record.numbers[2]);
+    const GlareAnswer answer = workers->estimator.estimate(eye, gazeOf(record), workers->workspaces[worker]);
     summary.add(record.index, answer, transport.prepared());
-    if (!options.sphere.everyDirection) return writer.write(bytes, answer);
+    if (indices) writer.write(bytes, answer);
+    if (list == nullptr) return;
     for (const GlareSource& source : answer.sources)
-      writer.write(bytes, source, answer, transport.prepared().scene(), record.index);
+      list->write(bytes, source, answer, transport.prepared().scene(), record.index);
   };
 }
 

@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "base/spectral_sampling.h"
 #include "base/stop_check.h"
+#include "estimate/estimator.h"
 #include "pictures/draw_point.h"
 #include "process/threads.h"
 
@@ -54,12 +55,17 @@ void PictureMaker::write(PictureFile& file, const V3d& point) const {
                  (isRadiance ? map.viewLine(point) : std::string()));
 }
 
-}  // namespace
+// The estimator of sphere mode, with a workspace for each thread of -n.
+struct PointWorkers {
+  PointWorkers(const Transport& transport, const AnswerOptions& options)
+      : estimator(transport, options.sphere, haveErrors(options.outputs)) {
+    for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces.emplace_back(estimator);
+  }
+  SphereEstimator estimator;
+  std::vector<SphereEstimator::Workspace> workspaces;
+};
 
-PointWorkers::PointWorkers(const Transport& transport, const AnswerOptions& options, bool standardError)
-    : estimator_(transport, options.sphere, standardError) {
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces_.emplace_back(estimator_);
-}
+}  // namespace
 
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
   const bool one = options.height == 1 && options.width <= 1;
@@ -69,8 +75,7 @@ void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
                           const PictureProgress::Report& pictureReport) {
-  const bool standardError = haveErrors(options.outputs);
-  const auto workers = std::make_shared<PointWorkers>(transport, options, standardError);
+  const auto workers = std::make_shared<PointWorkers>(transport, options);
   if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()
                             ? nullptr
@@ -81,9 +86,9 @@ AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& optio
     // minute.
     std::optional<PictureFile> picture;
     if (pictures) picture.emplace(pictureName(options.picture, record.index));
-    const PointAnswer answer = workers->answer(point, worker);
+    SphereEstimator::Workspace& workspace = workers->workspaces[worker];
+    const PointAnswer answer = workers->estimator.estimate(point, workspace);
     summary.add(record.index, answer, transport.prepared());
-    SphereEstimator::Workspace& workspace = workers->workspace(worker);
     if (pictures) pictures->write(*picture, point);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);
     for (size_t i = 0; i < workspace.samples.size(); ++i)

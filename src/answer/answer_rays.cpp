@@ -7,6 +7,19 @@
 #include "scene/modifier_names.h"
 
 namespace rsphere {
+namespace {
+
+// Estimates rays by independent sets of rays, with their standard errors.
+struct EstimatedRays {
+  EstimatedRays(const Transport& transport, const AnswerOptions& options)
+      : estimator(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}) {
+    for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers.push_back(estimator.tracers());
+  }
+  RayEstimator estimator;
+  std::vector<std::vector<PathTracer>> tracers;  // by thread
+};
+
+}  // namespace
 
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options) {
   const uint64_t seed = seedOf(numbers, rotationBits(options.ray));
@@ -17,16 +30,6 @@ std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptio
   std::vector<PathTracer> tracers;
   for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers.push_back(transport.pathTracer());
   return tracers;
-}
-
-EstimatedRays::EstimatedRays(const Transport& transport, const AnswerOptions& options)
-    : estimator_(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}) {
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers_.push_back(estimator_.tracers());
-}
-
-RayEstimator::Estimate EstimatedRays::estimate(unsigned worker, const InputRay& in, double farthest,
-                                               uint64_t seed) {
-  return estimator_.estimate(tracers_[worker], in.origin, in.direction, farthest, seed);
 }
 
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
@@ -54,7 +57,8 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
     if (estimated) {
-      const RayEstimator::Estimate estimate = estimated->estimate(worker, in, farthest, seed);
+      const RayEstimator::Estimate estimate =
+          estimated->estimator.estimate(estimated->tracers[worker], in.origin, in.direction, farthest, seed);
       RayAnswer answer = answerOf(transport.prepared().scene(), estimate.ray);
       answer.standardError = estimate.standardError;
       answer.brightnessError = estimate.brightnessError;

@@ -18,20 +18,6 @@ uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const Answer
 // One tracer for each thread of -n. The transport must exist as long as the tracers.
 std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
-// Estimates rays by independent sets of rays, with their standard errors. Several threads of -n may call
-// estimate() at a time.
-class EstimatedRays {
- public:
-  // Keeps a reference to the transport.
-  EstimatedRays(const Transport& transport, const AnswerOptions& options);
-  // farthest, seed: as for PathTracer::trace().
-  RayEstimator::Estimate estimate(unsigned worker, const InputRay& in, double farthest, uint64_t seed);
-
- private:
-  RayEstimator estimator_;
-  std::vector<std::vector<PathTracer>> tracers_;  // by thread
-};
-
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values
 // are requested and the scene has no light source; also of names of -te and -ti that are the modifier of no
 // surface. The summary gets the sensors of -I. All arguments must exist as long as the result.

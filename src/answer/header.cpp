@@ -1,5 +1,6 @@
 #include "answer/header.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,17 +26,6 @@ std::string quoted(const std::string& word) {
   const bool blanks = std::ranges::any_of(word, rad::isBlank);
   if (quote == 0 && (word.empty() || blanks)) quote = '"';
   return quote == 0 ? word : quote + word + quote;
-}
-
-std::string joinedNames(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += ' ' + quoted(name);
-  return all;
-}
-
-std::string dateText(const std::tm& date) {
-  return fmt::format("{:04}:{:02}:{:02} {:02}:{:02}:{:02}", date.tm_year + 1900, date.tm_mon + 1,
-                     date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec);
 }
 
 // Solid angle of each bin (sr), eight on a line.
@@ -95,8 +85,8 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
   if (options.header) {
     text += provenance(options, sceneHeader);
     std::tm date{};
-    if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {}\n", dateText(date));
-    if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {}\n", dateText(date));
+    if (localtime_r(&now, &date) != nullptr) text += fmt::format("CAPDATE= {:%Y:%m:%d %H:%M:%S}\n", date);
+    if (gmtime_r(&now, &date) != nullptr) text += fmt::format("GMT= {:%Y:%m:%d %H:%M:%S}\n", date);
     if (layout.components > 0) text += fmt::format("NCOMP={}\n", layout.components);
     text += OutputColors(options.color).headerLines();
     if (options.sphere.accuracy > 0) text += fmt::format("ACCURACY= {:g}\n", options.sphere.accuracy);
@@ -119,8 +109,11 @@ void writeHeader(RecordWriter& writer, const AnswerOptions& options, std::span<c
                  std::time_t now) {
   const bool counts = options.treeOutputs.empty() && !options.outputs.empty();
   RecordLayout layout{counts ? componentCount(options) : 0};
-  if (!options.contributors.empty())
-    layout.lines = "CONTRIBUTORS=" + joinedNames(options.contributors) + '\n';
+  if (!options.contributors.empty()) {
+    layout.lines = "CONTRIBUTORS=";
+    for (const std::string& name : options.contributors) layout.lines += ' ' + quoted(name);
+    layout.lines += '\n';
+  }
   std::vector<std::string> columns;
   if (options.namesColumns && counts)
     for (const auto& ofLetter : columnNames(options))

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -45,11 +46,8 @@ void Messages::warning(std::string_view text) const {
 int Messages::error(const rad::Error& error) const {
   const int status = static_cast<int>(error.status());
   if (dynamic_cast<const ClosedPipe*>(&error) != nullptr) return status;
-  switch (error.status()) {
-    case rad::Status::input: write("fatal - ", error.what()); break;
-    case rad::Status::system: write("system - ", error.what()); break;
-    case rad::Status::signal: write("signal - ", error.what()); break;
-  }
+  constexpr std::array<std::string_view, 4> kKinds = {"", "fatal - ", "system - ", "signal - "};
+  write(kKinds[static_cast<size_t>(status)], error.what());
   return status;
 }
 

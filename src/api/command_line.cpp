@@ -148,9 +148,11 @@ CommandOptions commandOptions(const Options& options, Records records) {
   const auto changesScene = [&](const OptionEntry& entry) {
     return !isOfOutput(entry) && !(records == Records::contributions && entry.name == "-Sr");
   };
-  for (const UsedOption& option : used)
-    if (changesScene(*option.entry))
-      for (const std::string& word : option.words) add(result.sceneKey, word);
+  for (const UsedOption& option : used) {
+    if (!changesScene(*option.entry)) continue;
+    add(result.sceneKey, std::string(option.entry->name) + option.rest);
+    for (const std::string& word : option.words) add(result.sceneKey, word);
+  }
   return result;
 }
 

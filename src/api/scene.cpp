@@ -147,18 +147,24 @@ void addGoals(CommandOptions& given, const Goals& goals) {
   }
 }
 
+// The letters of a glare source, in the order in which takeSources() reads them.
+constexpr const char* kSourceLetters = "dlLwWps";
+
 // Answers the records of a call. It serves one call at a time.
 struct Answerer {
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given)
       : options(optionsFor(*prepared->scene, given)),
         scene(std::move(prepared)),
         writer(options),
-        warn(scene->warnings.collector()) {
-    if (options.sphere.glare.wanted)
-      answer = withSources();
-    else
-      answer = options.sphereMode ? answerPoints(scene->transport, options, writer, warn, *summary)
-                                  : answerRays(scene->transport, options, writer, warn, *summary);
+        warn(scene->warnings.collector()),
+        sourceOptions(options) {
+    sourceOptions.outputs = kSourceLetters;
+    sourceOptions.sphere.everyDirection = true;
+    const Transport& transport = scene->transport;
+    answer = !options.sphereMode           ? answerRays(transport, options, writer, warn, *summary)
+             : options.sphere.glare.wanted ? answerGlare(transport, options, writer, warn, *summary,
+                                                         &sourceWriter.emplace(sourceOptions))
+                                           : answerPoints(transport, options, writer, warn, *summary);
   }
   // For contributions to rays.
   Answerer(std::shared_ptr<PreparedScene> prepared, const rsphere::Options& given,
@@ -179,31 +185,10 @@ struct Answerer {
   std::optional<RunSummary> summary{std::in_place};  // of the call
   std::optional<RayContributions> contributions;
   std::atomic<bool> stop = false;
+  rsphere::Options sourceOptions;  // of the list of an eye's glare sources
+  std::optional<AnswerWriter> sourceWriter;
   AnswerRecord answer;
-
- private:
-  AnswerRecord withSources();
 };
-
-// The letters of a glare source, in the order in which takeSources() reads them.
-constexpr const char* kSourceLetters = "dlLwWps";
-
-// Appends the glare sources of an eye to its record.
-AnswerRecord Answerer::withSources() {
-  if (isDark(scene->transport.prepared())) warn("no light sources found");
-  const auto workers = std::make_shared<GlareWorkers>(scene->transport, options);
-  const auto ofSources = std::make_shared<rsphere::Options>(options);
-  ofSources->outputs = kSourceLetters;
-  ofSources->sphere.everyDirection = true;
-  return [this, workers, ofSources](const Record& record, unsigned worker, std::string& bytes) {
-    const GlareAnswer glare = workers->answer(record, worker);
-    summary->add(record.index, glare, scene->transport.prepared());
-    writer.write(bytes, glare);
-    const AnswerWriter list(*ofSources);
-    for (const rsphere::GlareSource& source : glare.sources)
-      list.write(bytes, source, glare, *scene->scene, record.index);
-  };
-}
 
 // Receives the answer to a record, as bytes in the command's format.
 using Keep = std::function<void(size_t record, const std::string& bytes)>;

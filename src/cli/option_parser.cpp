@@ -27,18 +27,12 @@ namespace {
 // As in rtrace(1). The limit also stops the expansion of a file that refers to itself.
 constexpr size_t kMostExpanded = 4096;
 
-struct Use {
-  const OptionEntry* entry;
-  std::string rest;                // after the name, in the same word
-  std::vector<std::string> words;  // after that word
-};
-
 const Companion kNoCompanion;
 
 // The words of a command line, and a position at which @file and $VARIABLE are expanded.
-class Words {
+class CommandWords {
  public:
-  explicit Words(std::span<const std::string> words) : words_(words.begin(), words.end()) {}
+  explicit CommandWords(std::span<const std::string> words) : words_(words.begin(), words.end()) {}
 
   bool atEnd() const { return at_ == words_.size(); }
   size_t at() const { return at_; }
@@ -202,7 +196,7 @@ std::string whyUnknown(const Companion& companion, std::string_view word) {
   return "there is no such option" + nearest.hint();
 }
 
-void apply(const Use& use, Options& options) {
+void apply(const UsedOption& use, Options& options) {
   const OptionEntry& entry = *use.entry;
   if (entry.support == Support::refused)
     throw rad::Error(fmt::format("option '{}' is not supported: {}", entry.name, entry.reason));
@@ -451,19 +445,19 @@ namespace {
 
 // The options of a command line, and the mode that they select.
 struct Given {
-  std::vector<Use> uses;
+  std::vector<UsedOption> uses;
   Request request = Request::answers;
   bool sphereMode = true;
 
   // Whether standard errors or an accuracy are requested.
   bool asksForErrors() const {
-    return std::ranges::any_of(uses, [](const Use& use) {
+    return std::ranges::any_of(uses, [](const UsedOption& use) {
       const std::string_view name = use.entry->name;
       return name == "-Sa" || name == "-oe" || (name == "-o" && use.rest.find('e') != std::string::npos);
     });
   }
   bool has(std::string_view name) const {
-    return std::ranges::any_of(uses, [&](const Use& use) { return use.entry->name == name; });
+    return std::ranges::any_of(uses, [&](const UsedOption& use) { return use.entry->name == name; });
   }
 };
 
@@ -476,8 +470,8 @@ std::string_view usualOutputs(const Options& options) {
 }
 
 // Throws rad::Error for an option that has no effect in the mode, unless it is a switch that is off.
-void checkModes(const std::vector<Use>& uses, Options& options) {
-  for (const Use& use : uses) {
+void checkModes(const std::vector<UsedOption>& uses, Options& options) {
+  for (const UsedOption& use : uses) {
     const OptionEntry& entry = *use.entry;
     const auto* const value = std::get_if<SwitchValue>(&entry.value);
     if (worksIn(entry, options.sphereMode) || (value && !(*value)(options))) continue;
@@ -490,10 +484,10 @@ void checkModes(const std::vector<Use>& uses, Options& options) {
 }
 
 // Reads the option named by `word`, and its values from the following words.
-Use takeUse(Words& words, const Companion& companion, const std::string& word) {
+UsedOption takeUse(CommandWords& words, const Companion& companion, const std::string& word) {
   const OptionEntry* entry = findOption(companion, word);
   if (entry == nullptr) commandLineError(word, whyUnknown(companion, word));
-  Use use{entry, word.substr(entry->name.size()), {}};
+  UsedOption use{entry, word.substr(entry->name.size()), {}};
   if (entry->alsoGlued && !use.rest.empty()) use.words.push_back(use.rest);
   while (use.words.size() < static_cast<size_t>(arity(*entry))) {
     if (words.atEnd()) missingWords(word, *entry, use.words.size(), nullptr);
@@ -509,7 +503,7 @@ Use takeUse(Words& words, const Companion& companion, const std::string& word) {
   return use;
 }
 
-Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
+Given takeOptions(CommandWords& words, const Companion& companion, bool sphereMode) {
   Given given;
   given.sphereMode = sphereMode;
   for (words.expand(); !words.atEnd() && words.word().starts_with("-"); words.expand()) {
@@ -520,14 +514,14 @@ Given takeOptions(Words& words, const Companion& companion, bool sphereMode) {
       given.request = !words.atEnd() && words.word() == "all" ? Request::helpAll : Request::help;
     if (given.request != Request::answers) break;
     if (word == "-features") commandLineError(word, "it must be the first option");
-    Use use = takeUse(words, companion, word);
+    UsedOption use = takeUse(words, companion, word);
     if (use.entry->name == "-S") given.sphereMode = switched(use.rest, given.sphereMode).value();
     given.uses.push_back(std::move(use));
   }
   return given;
 }
 
-std::vector<std::string> takeScene(Words& words) {
+std::vector<std::string> takeScene(CommandWords& words) {
   std::vector<std::string> scene;
   for (const size_t first = words.at(); !words.atEnd(); words.expand()) {
     if (words.word().starts_with("-"))
@@ -547,7 +541,7 @@ std::vector<std::string> takeScene(Words& words) {
 RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
   Options own = options;
   own.ray = pictureDefaults();
-  for (const Use& use : given.uses)
+  for (const UsedOption& use : given.uses)
     if (use.entry->name != "-S") apply(use, own);
   own.ray.sampling = options.ray.sampling;
   own.ray.wavelengths = options.ray.wavelengths;
@@ -555,12 +549,13 @@ RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
   return own.ray;
 }
 
-// Parses a command line into options, and returns the options used in it.
-std::vector<Use> parse(std::span<const std::string> commandLine, const Companion& companion,
-                       Options& options) {
+}  // namespace
+
+std::vector<UsedOption> parseCompanion(std::span<const std::string> commandLine, const Companion& companion,
+                                       Options& options) {
   const std::string called = commandLine.empty() ? "rsphere" : commandLine[0];
   const std::string program = called.substr(called.rfind('/') + 1);
-  Words words(commandLine.subspan(commandLine.empty() ? 0 : 1));
+  CommandWords words(commandLine.subspan(commandLine.empty() ? 0 : 1));
   if (!words.atEnd() && words.word() == "-features") {
     words.take();
     options.program = program;
@@ -575,7 +570,7 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   options.program = program;
   options.request = given.request;
   options.words.assign(words.before().begin(), words.before().end());
-  for (const Use& use : given.uses)
+  for (const UsedOption& use : given.uses)
     if (use.entry->name != "-S") apply(use, options);
   checkModes(given.uses, options);
   if (options.outputs.empty()) options.outputs = usualOutputs(options);
@@ -595,28 +590,10 @@ std::vector<Use> parse(std::span<const std::string> commandLine, const Companion
   return std::move(given.uses);
 }
 
-}  // namespace
-
 Options parseOptions(std::span<const std::string> words) {
   Options options;
-  parse(words, kNoCompanion, options);
+  parseCompanion(words, kNoCompanion, options);
   return options;
-}
-
-std::vector<UsedOption> parseCompanion(std::span<const std::string> words, const Companion& companion,
-                                       Options& options) {
-  std::vector<UsedOption> used;
-  for (const Use& use : parse(words, companion, options)) {
-    const bool restIsWord = use.entry->alsoGlued && !use.rest.empty();
-    used.push_back({use.entry, {std::string(use.entry->name) + (restIsWord ? "" : use.rest)}});
-    used.back().words.insert(used.back().words.end(), use.words.begin(), use.words.end());
-  }
-  return used;
-}
-
-Options parseOptions(int argc, char** argv) {
-  const std::vector<std::string> words(argv, argv + argc);
-  return parseOptions(words);
 }
 
 }  // namespace rsphere

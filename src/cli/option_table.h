@@ -147,7 +147,6 @@ RayOptions pictureDefaults();
 // file or directory" (Status::system) or "missing octree argument"; and with "option '-ap' is not supported:
 // ..." for an option of rtrace that rsphere does not have.
 Options parseOptions(std::span<const std::string> words);
-Options parseOptions(int argc, char** argv);
 
 // A companion program, which accepts options of rsphere and others. Values of the latter are members of a
 // struct derived from Options; an object of that struct must be passed to parseCompanion().
@@ -155,8 +154,6 @@ struct Companion {
   std::span<const OptionEntry> own{};
   std::string_view usage{};  // its command line after the name
   bool sphereMode = true;    // the mode without -S
-  std::string_view name{};   // first word of its messages
-  int faultStatus = 0;       // exit status of all errors except signals; 0: as in rtrace(1)
   // Changes the defaults of the mode. Null: keeps them.
   void (*defaults)(Options&) = nullptr;
   // Whether it accepts an option of rsphere. Null: all are accepted.
@@ -165,10 +162,11 @@ struct Companion {
   std::span<const std::string_view> features{};
 };
 
-// An option on a command line, with its words, beginning with the option itself.
+// An option on a command line.
 struct UsedOption {
   const OptionEntry* entry;
-  std::vector<std::string> words;
+  std::string rest;                // after the name, in the same word
+  std::vector<std::string> words;  // its values; a value in the same word is among them
 };
 
 // parseOptions() for a companion. Sets all of Options, and the values of those options of the companion that

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 
 #include "answer/column_names.h"
 #include "answer/header.h"
+#include "base/overloaded.h"
 #include "cli/option_table.h"
 
 namespace rsphere {
@@ -40,26 +43,27 @@ std::string remarkOf(const OptionEntry& entry, Options& options) {
 // The line of -defaults before its remark, with rtrace's number formats and tabs.
 std::string lineOf(const OptionEntry& entry, Options& options) {
   if (entry.line != nullptr) return entry.line(options);
-  if (const auto* value = std::get_if<SwitchValue>(&entry.value))
-    return fmt::format("{}{}\t\t\t\t", entry.name, (*value)(options) ? '+' : '-');
-  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
-    return fmt::format("{} {:<9}\t\t\t", entry.name, (*value)(options));
-  if (const auto* value = std::get_if<CountValue>(&entry.value))
-    return fmt::format("{} {:<9}\t\t\t", entry.name, (*value)(options));
-  if (const auto* value = std::get_if<RealValue>(&entry.value))
-    return fmt::format("{} {:f}\t\t\t", entry.name, (*value)(options));
-  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
-    const Color& c = (*value)(options);
-    return fmt::format("{} {:f} {:f} {:f}\t", entry.name, c.x, c.y, c.z);
-  }
-  if (const auto* value = std::get_if<WordValue>(&entry.value))
-    return (*value)(options).empty() ? "" : fmt::format("{} {}\t\t", entry.name, (*value)(options));
-  if (const auto* value = std::get_if<WordsValue>(&entry.value)) {
-    std::string words;
-    for (const std::string& word : (*value)(options)) words += fmt::format("{} {} ", entry.name, word);
-    return words.empty() ? "" : words + "\t\t";
-  }
-  return "";
+  const std::string_view name = entry.name;
+  return match(
+      entry.value,
+      [&](SwitchValue value) { return fmt::format("{}{}\t\t\t\t", name, value(options) ? '+' : '-'); },
+      [&](OneOf<IntegerValue, CountValue> auto value) {
+        return fmt::format("{} {:<9}\t\t\t", name, value(options));
+      },
+      [&](RealValue value) { return fmt::format("{} {:f}\t\t\t", name, value(options)); },
+      [&](ColorValue value) {
+        const Color& c = value(options);
+        return fmt::format("{} {:f} {:f} {:f}\t", name, c.x, c.y, c.z);
+      },
+      [&](WordValue value) {
+        return value(options).empty() ? "" : fmt::format("{} {}\t\t", name, value(options));
+      },
+      [&](WordsValue value) {
+        std::string words;
+        for (const std::string& word : value(options)) words += fmt::format("{} {} ", name, word);
+        return words.empty() ? "" : words + "\t\t";
+      },
+      [](OneOf<std::monostate, Custom> auto) { return std::string(); });
 }
 
 // What a switch toggles: "back face visibility" of "back face visibility on|back face visibility off".
@@ -156,13 +160,10 @@ bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
   const size_t equals = feature.find('=');
   if (equals == std::string_view::npos) return false;
   const std::string list = fmt::format(",{},", feature.substr(equals + 1));
-  while (!wanted.empty()) {
-    const size_t comma = wanted.find(',');
-    const std::string_view one = wanted.substr(0, comma);
-    if (!one.empty() && list.find(fmt::format(",{},", one)) == std::string::npos) return false;
-    wanted.remove_prefix(comma == std::string_view::npos ? wanted.size() : comma + 1);
-  }
-  return true;
+  return std::ranges::all_of(std::views::split(wanted, ','), [&](const auto& part) {
+    const std::string_view one(part.begin(), part.end());
+    return one.empty() || list.find(fmt::format(",{},", one)) != std::string::npos;
+  });
 }
 
 }  // namespace
@@ -170,22 +171,22 @@ bool hasSubfeatures(std::string_view feature, std::string_view wanted) {
 std::string shortValue(const OptionEntry& entry, Options& options) {
   if (entry.inEffect != nullptr) return entry.inEffect(options) ? "on" : "off";
   if (entry.support == Support::refused) return "";
-  if (const auto* value = std::get_if<SwitchValue>(&entry.value)) return (*value)(options) ? "on" : "off";
-  if (const auto* value = std::get_if<IntegerValue>(&entry.value))
-    return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<CountValue>(&entry.value)) return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<RealValue>(&entry.value)) return fmt::format("{}", (*value)(options));
-  if (const auto* value = std::get_if<ColorValue>(&entry.value)) {
-    const Color& c = (*value)(options);
-    return fmt::format("{} {} {}", c.x, c.y, c.z);
-  }
-  if (std::holds_alternative<Custom>(entry.value) && entry.line != nullptr) {
-    const std::string line = entry.line(options);
-    const size_t from = entry.name.size() + (entry.glued ? 0 : 1);
-    if (line.size() <= from) return "";
-    return line.substr(from, line.find_first_of(" \t", from) - from);
-  }
-  return "";
+  return match(
+      entry.value, [&](SwitchValue value) -> std::string { return value(options) ? "on" : "off"; },
+      [&](OneOf<IntegerValue, CountValue, RealValue> auto value) {
+        return fmt::format("{}", value(options));
+      },
+      [&](ColorValue value) {
+        const Color& c = value(options);
+        return fmt::format("{} {} {}", c.x, c.y, c.z);
+      },
+      [&](const Custom&) -> std::string {
+        const std::string line = entry.line != nullptr ? entry.line(options) : "";
+        const size_t from = entry.name.size() + (entry.glued ? 0 : 1);
+        if (line.size() <= from) return "";
+        return line.substr(from, line.find_first_of(" \t", from) - from);
+      },
+      [](OneOf<std::monostate, WordValue, WordsValue> auto) { return std::string(); });
 }
 
 std::string defaultsText(const Options& options, bool (*takes)(const OptionEntry&)) {
@@ -232,8 +233,7 @@ FeatureReport featureReport(std::span<const std::string> wanted, std::span<const
   std::vector<std::string_view> all(std::begin(kSceneFeatures), std::end(kSceneFeatures));
   all.insert(all.end(), features.begin(), features.end());
   FeatureReport report;
-  if (wanted.empty())
-    for (const std::string_view feature : all) report.text += fmt::format("{}\n", feature);
+  if (wanted.empty()) report.text = fmt::format("{}\n", fmt::join(all, "\n"));
   for (const std::string& want : wanted) {
     if (want.empty()) continue;
     const size_t equals = want.find('=');
@@ -243,10 +243,7 @@ FeatureReport featureReport(std::span<const std::string> wanted, std::span<const
       if (feature.substr(0, feature.find('=')) == name) found = feature;
     const bool has = !found.empty() && (equals == std::string::npos ||
                                         hasSubfeatures(found, std::string_view(want).substr(equals + 1)));
-    if (!has) {
-      report.missing = want;
-      return report;
-    }
+    if (!has) return {report.text, want};
     if (equals == std::string::npos && found.find('=') != std::string_view::npos)
       report.text += fmt::format("{}\n", found);
   }

@@ -1,42 +1,46 @@
 #include "cli/program.h"
 
 #include <new>
-#include <string>
-#include <vector>
 
 #include "answer/header.h"
-#include "cli/print_request.h"
+#include "records/record_writer.h"
 
 namespace rsphere {
 
-int exitStatus(const Messages& messages, const std::function<int()>& program, int faultStatus) {
-  const auto fault = [&](const rad::Error& error) {
-    const int status = messages.error(error);
-    return faultStatus == 0 || error.status() == rad::Status::signal ? status : faultStatus;
-  };
+int exitStatus(const Messages& messages, const std::function<int()>& program) {
   try {
     return program();
   } catch (const rad::Error& error) {
-    return fault(error);
+    return messages.error(error);
   } catch (const std::bad_alloc&) {
-    return fault(rad::Error("out of memory", rad::Status::system));
+    return messages.error(rad::Error("out of memory", rad::Status::system));
   }
 }
 
-int runCompanion(const Companion& companion, int argc, char** argv, Options& options,
-                 const CompanionRun& run) {
-  const std::string program(companion.name);
-  Messages messages(program);
-  const auto inside = [&] {
-    StopSignals signals(program);
-    const std::vector<std::string> words(argv, argv + argc);
-    const std::vector<UsedOption> used = parseCompanion(words, companion, options);
-    messages.use(options.messages, commandLine(options, true));
-    signals.reportTo(messages.descriptor());
-    if (options.request != Request::answers) return printRequest(options, messages, &companion);
-    return run(used, messages, signals);
-  };
-  return exitStatus(messages, inside, companion.faultStatus);
+int printRequest(Options& options, const Messages& messages, const Companion* companion) {
+  RecordWriter writer(1);
+  FeatureReport report;
+  switch (options.request) {
+    case Request::version: writer.write(versionAnswer(options.program) + "\n"); break;
+    case Request::defaults:
+      writer.write(companion ? companionDefaults(*companion, options) : defaultsText(options));
+      break;
+    case Request::help:
+    case Request::helpAll:
+      writer.write(companion                          ? companionHelp(*companion, options)
+                   : options.request == Request::help ? usualHelp(options)
+                                                      : helpText(options));
+      break;
+    case Request::features:
+      report = featureReport(options.features, (companion ? *companion : Companion{}).features);
+      writer.write(report.text);
+      break;
+    case Request::answers: break;
+  }
+  writer.flush();
+  if (report.missing.empty()) return 0;
+  messages.report("missing feature - " + report.missing);
+  return static_cast<int>(rad::Status::input);
 }
 
 }  // namespace rsphere

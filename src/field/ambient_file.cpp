@@ -29,10 +29,11 @@ uint64_t checksum(const AmbientFile::Record& record) {
   return print.value();
 }
 
-// False on an error or if the file ends too early.
-bool readAll(int descriptor, void* to, size_t size, off_t offset) {
+// Repeats pread() or pwrite() until all bytes are transferred. False on an error or if the file ends too
+// early.
+bool transferAll(const auto& transfer, int descriptor, auto* bytes, size_t size, off_t offset) {
   for (size_t done = 0; done < size;) {
-    const ssize_t n = pread(descriptor, static_cast<char*>(to) + done, size - done, offset + off_t(done));
+    const ssize_t n = transfer(descriptor, bytes + done, size - done, offset + static_cast<off_t>(done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     done += static_cast<size_t>(n);
@@ -40,15 +41,12 @@ bool readAll(int descriptor, void* to, size_t size, off_t offset) {
   return true;
 }
 
+bool readAll(int descriptor, void* to, size_t size, off_t offset) {
+  return transferAll(pread, descriptor, static_cast<char*>(to), size, offset);
+}
+
 bool writeAll(int descriptor, std::string_view bytes, off_t offset) {
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t n =
-        pwrite(descriptor, bytes.data() + done, bytes.size() - done, offset + static_cast<off_t>(done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    done += static_cast<size_t>(n);
-  }
-  return true;
+  return transferAll(pwrite, descriptor, bytes.data(), bytes.size(), offset);
 }
 
 off_t sizeOf(int descriptor) {

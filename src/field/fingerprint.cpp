@@ -3,6 +3,7 @@
 #include <cstring>
 #include <unordered_set>
 
+#include "base/overloaded.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/scene_file.h"
 
@@ -32,32 +33,24 @@ void add(Fingerprint& print, const V3d& v) {
   for (int c = 0; c < 3; ++c) print.add(v[c]);
 }
 
+void add(Fingerprint& print, const OneOf<double, uint64_t> auto& x) { print.add(x); }
+void addAll(Fingerprint& print, const auto&... values) { (add(print, values), ...); }
+
 // Only the defining values of shapes, not those computed from them.
 void add(Fingerprint& print, const Polygon& polygon, const Scene& scene) {
   print.add(uint64_t{polygon.vertices});
   for (uint32_t i = 0; i < polygon.vertices; ++i) add(print, scene.vertices[polygon.firstVertex + i]);
 }
-void add(Fingerprint& print, const Sphere& sphere, const Scene&) {
-  add(print, sphere.center);
-  print.add(sphere.radius);
-  print.add(uint64_t{sphere.inward});
+void add(Fingerprint& print, const Sphere& s, const Scene&) {
+  addAll(print, s.center, s.radius, uint64_t{s.inward});
 }
-void add(Fingerprint& print, const Cone& cone, const Scene&) {
-  add(print, cone.base);
-  add(print, cone.axis);
-  for (const double x : {cone.length, cone.radius0, cone.radius1}) print.add(x);
-  print.add(uint64_t{cone.inward});
+void add(Fingerprint& print, const Cone& c, const Scene&) {
+  addAll(print, c.base, c.axis, c.length, c.radius0, c.radius1, uint64_t{c.inward});
 }
-void add(Fingerprint& print, const Ring& ring, const Scene&) {
-  add(print, ring.center);
-  add(print, ring.normal);
-  print.add(ring.inner);
-  print.add(ring.outer);
+void add(Fingerprint& print, const Ring& r, const Scene&) {
+  addAll(print, r.center, r.normal, r.inner, r.outer);
 }
-void add(Fingerprint& print, const Distant& distant, const Scene&) {
-  add(print, distant.direction);
-  print.add(distant.halfAngle);
-}
+void add(Fingerprint& print, const Distant& d, const Scene&) { addAll(print, d.direction, d.halfAngle); }
 // Their placements are string arguments in the description.
 void add(Fingerprint&, const Instance&, const Scene&) {}
 void add(Fingerprint&, const MeshInstance&, const Scene&) {}

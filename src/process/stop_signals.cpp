@@ -6,9 +6,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 
 #include "rad_parser/printable.h"
 
@@ -55,12 +55,8 @@ void occupyStandardDescriptors() {
     }
 }
 
-// Monotonic time, ns.
-int64_t now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
+// Monotonic time, ns. A signal handler may call it, because it only calls clock_gettime(2).
+int64_t now() { return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1); }
 
 void onSignal(int number) {
   const int error = errno;

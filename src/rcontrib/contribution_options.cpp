@@ -189,7 +189,6 @@ const Companion& contributionCompanion() {
   static const Companion companion{.own = kContributionOptions,
                                    .usage = "[options] { -m mod | -M file } ... octree < rays",
                                    .sphereMode = false,
-                                   .name = "rcontrib",
                                    .defaults = setDefaults,
                                    .takes = takes,
                                    .features = kFeatures};

@@ -5,6 +5,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "image/codec.h"
@@ -35,15 +37,9 @@ class MemoryFile {
   std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
   // False if it cannot be read.
   bool contents(std::string& bytes) const {
-    const off_t size = fd_ < 0 ? -1 : lseek(fd_, 0, SEEK_END);
-    if (size < 0) return false;
-    bytes.resize(static_cast<size_t>(size));
-    for (size_t done = 0; done < bytes.size();) {
-      const ssize_t n = pread(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-      if (n <= 0) return false;
-      done += static_cast<size_t>(n);
-    }
-    return true;
+    std::ifstream file(path(), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(file), {});
+    return file.good() || file.eof();
   }
 
  private:
