@@ -57,7 +57,7 @@ class Comparing:
 
     def ask_rsphere(self, numbers, *more):
         ended = rsphere([*self.words, *more, "-h-", "-fdd", "-ov", *self.line.scene], numbers.tobytes())
-        self.line.messages.of_rsphere(ended.errors)
+        self.line.messages.of_rsphere(ended.errors, of_rays=not self.settings.sphere_mode)
         self.seconds += ended.seconds
         return numbers_of(ended.output)
 

@@ -18,6 +18,7 @@ LONGEST_WORD, LONGEST_MESSAGE = 500, 4000
 PR_SET_PDEATHSIG = 1
 # What rsphere says at the end of a run of its records, of which repeats are many.
 SUMMARY = re.compile(r"(no light reaches |-Sa: )?\d+ of \d+ ")
+NO_SOURCES = "no light sources found"
 C_LIBRARY = ctypes.CDLL(None)
 
 
@@ -67,8 +68,9 @@ class Messages:
             self.warnings.append(text)
             self.report(f"warning - {text}")
 
-    def of_rsphere(self, lines, name="stdin"):
-        """Passes the warnings of rsphere on. Raises its error. name: of the file that is its standard input."""
+    def of_rsphere(self, lines, name="stdin", of_rays=False):
+        """Passes the warnings of rsphere on. Raises its error. name: of the file that is its standard input. of_rays: leaves out
+        rtrace's warning of scenes that only glow, which are not dark."""
         for line in lines.decode(errors="surrogateescape").splitlines():
             found = re.match(r"\S+: (warning|fatal|system|signal) - (.*)", line)
             if not found:
@@ -76,7 +78,7 @@ class Messages:
             text = re.sub(r"^stdin\b", lambda _: name, found[2])
             if found[1] != "warning":
                 raise Fault(text, found[1])
-            if not SUMMARY.match(text):
+            if not SUMMARY.match(text) and not (of_rays and text == NO_SOURCES):
                 self.warning(text)
 
 

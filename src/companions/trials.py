@@ -40,6 +40,7 @@ class Trials:
                       stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         try:
             setup, seconds, numbers = self.answers(child, len(letters), answered)
+            self.messages.of_rsphere(child.stderr.read(), of_rays=not setting.sphere_mode)
         finally:
             child.kill()
             child.wait()
@@ -75,7 +76,6 @@ class Trials:
         seconds = cpu_seconds(child.pid) - setup
         feeder.join()
         child.stdin.close()
-        self.messages.of_rsphere(child.stderr.read())
         numbers = array("d")
         numbers.frombytes(data[:wanted])
         return setup, seconds, numbers
