@@ -70,9 +70,7 @@ Figures measure(const Transport& transport, SphereOptions o, const std::vector<V
 void compare(const Case& c, int rotations) {
   std::vector<std::string> words{"rsphere"};
   words.insert(words.end(), c.words.begin(), c.words.end());
-  std::vector<char*> argv;
-  for (std::string& w : words) argv.push_back(w.data());
-  const Options options = parseOptions(static_cast<int>(argv.size()), argv.data());
+  const Options options = parseOptions(words);
   const rad::Warn quiet = [](std::string_view) {};
   const rad::ReadOptions read{options.commands, quiet};
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);

@@ -65,9 +65,9 @@ int run(int argc, char** argv) {
   std::ifstream file(argv[2]);
   for (double x, y, z; file >> x >> y >> z;) points.push_back(V3d(x, y, z));
   if (points.empty()) throw rad::Error(fmt::format("no points in {}", argv[2]));
-  std::vector<char*> words{argv[0]};
+  std::vector<std::string> words{argv[0]};
   words.insert(words.end(), argv + 3, argv + argc);
-  const Options options = parseOptions(static_cast<int>(words.size()), words.data());
+  const Options options = parseOptions(words);
   const rad::Warn quiet = [](std::string_view) {};
   const rad::ReadOptions read{options.commands, quiet};
   const Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
