@@ -6,7 +6,7 @@ target_compile_definitions(bench_importance PRIVATE RSPHERE_SCENES="${CMAKE_CURR
 
 # What stopping by estimated errors (-Sa) makes of the mean.
 add_executable(bench_stopping ${CMAKE_CURRENT_LIST_DIR}/stopping.cpp)
-target_link_libraries(bench_stopping PRIVATE rsphere_cli rsphere_measure)
+target_link_libraries(bench_stopping PRIVATE rsphere_cli)
 
 # Which paths make the tails.
 add_executable(bench_heavy_paths ${CMAKE_CURRENT_LIST_DIR}/heavy_paths.cpp)
