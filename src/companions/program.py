@@ -3,6 +3,7 @@ import ctypes
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -143,7 +144,7 @@ def program_beside(name):
     for folder in (os.path.dirname(called), os.path.dirname(os.path.realpath(called))):
         if os.access(os.path.join(folder, name), os.X_OK):
             return os.path.join(folder, name)
-    return name
+    return shutil.which(name) or name
 
 
 def start(words, **streams):
