@@ -524,6 +524,7 @@ void setErrorDefaults(RayOptions& ray, bool reachAccuracy) {
   if (!reachAccuracy) return;
   ray.ambientBounces = ofPoints.ambientBounces;
   ray.reflectionLimit = ofPoints.reflectionLimit;
+  ray.directRelays = ofPoints.directRelays;
 }
 
 Options modeDefaults(bool sphereMode) {
@@ -554,6 +555,7 @@ Options modeDefaults(bool sphereMode) {
   // As many bounces as it takes: paths end by Russian roulette. Any lower limit makes the mean too small.
   options.ray.ambientBounces = RayOptions::kAllBounces;
   options.ray.reflectionLimit = -RayOptions::kAllBounces;
+  options.ray.directRelays = RayOptions::kAllBounces;
   return options;
 }
 

@@ -1,5 +1,7 @@
 #include "light/relays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "base/frame.h"
 #include "base/overloaded.h"
 #include "light/penumbra.h"
+#include "light/tuning.h"
 #include "scene/box_tree.h"
 
 namespace rsphere {
@@ -159,8 +162,22 @@ class Images {
     tree_ = BoxTree(std::move(boxes));
   }
 
-  // Adds the images of a real source, and images of images, in sequences of up to `relays` relays.
-  void addImages(LightId real, int relays) {
+  // Adds the images of all real sources, and images of images, in sequences of up to `relays` relays. Adds
+  // none and returns false if there are more than `most`.
+  bool addAll(int relays, size_t most) {
+    const size_t real = sources_.size();
+    for (size_t i = 0; i < real; ++i) {
+      addImages(LightId(i), relays, most - (sources_.size() - real));
+      if (sources_.size() - real <= most) continue;
+      sources_.resize(real);
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  // Ends early if there are more than `most`.
+  void addImages(LightId real, int relays, size_t most) {
     Way way;
     const LightSource& source = sources_[real];
     const Surface& surface = scene_.surfaces[source.surface];
@@ -171,14 +188,14 @@ class Images {
                               planeNormal(surface.shape) != nullptr});
     std::vector<Pending> pending;
     addPending(real, std::move(way), relays, pending);
-    while (!pending.empty()) {
+    const size_t before = sources_.size();
+    while (!pending.empty() && sources_.size() - before <= most) {
       const Pending next = std::move(pending.back());
       pending.pop_back();
       addImage(next, pending);
     }
   }
 
- private:
   // A relay that light reaches, and points whose hull contains the lit part of it.
   struct Reached {
     uint32_t relay;
@@ -494,8 +511,14 @@ class Images {
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
                        const rad::Warn& warn, ById<LightId, LightSource>& sources) {
   if (relays <= 0 || sources.empty()) return;
+  using tuning::Relays;
+  const size_t real = sources.size(),
+               most = relays < kRelaysAsNeeded ? SIZE_MAX : Relays::kFew + Relays::kForEach * real;
+  if (most < SIZE_MAX) relays = Relays::kMost;
   Images images(scene, functions, warn, sources);
-  for (const LightId real : sources.ids()) images.addImages(real, relays);
+  while (!images.addAll(relays, relays > Relays::kUsual ? most : SIZE_MAX)) --relays;
+  if (most < SIZE_MAX && relays < Relays::kMost && warn)
+    warn(fmt::format("light of sources by more than {} mirrors in a row is left out (-dr)", relays));
 }
 
 }  // namespace rsphere

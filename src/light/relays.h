@@ -16,9 +16,13 @@
 
 namespace rsphere {
 
+// A number of relays that stands for as many as are worth their shadow rays.
+inline constexpr int kRelaysAsNeeded = 1000;
+
 // Appends the images of all sources in sequences of up to `relays` relays. Relays are polygons and rings
 // whose material is mirror, prism1 or prism2, or illum with one of these as its alternate material. warn:
-// called for surfaces of other shapes with such a material; they produce no images. functions: evaluates the
+// called for surfaces of other shapes with such a material; they produce no images. Also called where
+// kRelaysAsNeeded would make too many images, so that light is left out. functions: evaluates the
 // arguments of prisms; exceptions that it throws are not caught.
 void addVirtualSources(const Scene& scene, int relays, const SurfaceFunctions& functions,
                        const rad::Warn& warn, ById<LightId, LightSource>& sources);

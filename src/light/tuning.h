@@ -1,5 +1,6 @@
 #pragma once
-// Tuning constants (base/tuned.h). They affect variance and time, not the mean.
+// Tuning constants (base/tuned.h). They affect variance and time, not the mean, except those of Relays.
+#include <cstddef>
 
 namespace rsphere::tuning {
 
@@ -12,6 +13,18 @@ struct PartSampler {
   // area: derived. The edge of a narrower part is at most 3% farther away than its middle, sqrt(1 + .25^2),
   // so that cosine / distance^2 varies little over it.
   static constexpr double kNear = .5;
+};
+
+// Images of sources in mirrors, if as many are made as it takes (relays.cpp).
+struct Relays {
+  // Between two mirrors of reflectance .9, images by up to 2, 4 and 8 reflections show 19, 34 and 57% of all
+  // light that is reflected there; below a shaft of such mirrors, 2 leave sensors at a tenth
+  // (tests/bench/rtrace/runs/2026-11-29-relays.txt).
+  static constexpr int kMost = 8;
+  // The number of images is at most kFew, and kForEach for each source, with which two parallel mirrors have
+  // kMost reflections. Two reflections are followed in any case, as by rtrace's default.
+  static constexpr int kUsual = 2;
+  static constexpr size_t kFew = 64, kForEach = 16;
 };
 
 }  // namespace rsphere::tuning

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "light/relays.h"
 #include "scene/modifier_names.h"
 
 namespace rsphere {
@@ -18,6 +19,7 @@ bool glows(const Scene& scene, SurfaceList::Beginning surfaces) {
 
 }  // namespace
 
+static_assert(RayOptions::kAllBounces == kRelaysAsNeeded);
 PreparedScene::PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                              bool basicRadiance, const rad::Warn& warn)
     : PreparedScene(scene, std::make_shared<const Tracer>(scene, options.backFacesVisible), options,

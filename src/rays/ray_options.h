@@ -21,7 +21,7 @@ struct RayOptions {
   double directCertainty = .75;      // -dc
   double directJitter = 0;           // -dj  0 to 1
   double sourceSubstructuring = .2;  // -ds  largest size of a source's part per distance; 0: not divided
-  int directRelays = 2;              // -dr
+  int directRelays = 2;              // -dr  kAllBounces: as many as it takes
   int chosenSources = 0;             // -Ss  number of random sources sampled at a surface; 0: all
   int directPretest = 512;           // -dp
   bool sourcesVisible = true;  // -dv  whether sources show their radiance to primary rays, instead of black

@@ -75,6 +75,30 @@ TEST(VirtualSource, MirrorsShowImagesOfImages) {
   }
 }
 
+// Between parallel mirrors, as many images as it takes are those by eight reflections; of many lamps in a room
+// of mirrors fewer, and a warning says so. Never fewer than by rtrace's default.
+TEST(VirtualSource, MirrorsShowAsManyImagesAsItTakes) {
+  const std::string two = mirror(0, 1, .9) + mirror(4, -1, .9, "other");
+  Traced needed = meters(lamp(kLamp) + two, RayOptions::kAllBounces), eight = meters(lamp(kLamp) + two, 8),
+         seven = meters(lamp(kLamp) + two, 7);
+  EXPECT_EQ(irradianceAt(needed, kPoint), irradianceAt(eight, kPoint));
+  EXPECT_GT(irradianceAt(eight, kPoint), irradianceAt(seven, kPoint));
+  const std::string four = two +
+                           "silver polygon near 0 0 12 0 -20 -20 0 -20 20 4 -20 20 4 -20 -20\n"
+                           "silver polygon far 0 0 12 0 20 -20 4 20 -20 4 20 20 0 20 20\n"
+                           "silver polygon floor 0 0 12 0 -20 -20 4 -20 -20 4 20 -20 0 20 -20\n"
+                           "silver polygon ceiling 0 0 12 0 -20 20 0 20 20 4 20 20 4 -20 20\n";
+  const Scene scene = sceneOf(lamp(kLamp) + four);
+  std::vector<std::string> said;
+  const auto warn = [&](std::string_view warning) { said.emplace_back(warning); };
+  const PreparedScene prepared(scene, relaying(RayOptions::kAllBounces), IrradianceAt::point, false, warn);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_TRUE(said[0].starts_with("light of sources by more than ")) << said[0];
+  const size_t images = prepared.lights().all().size() - 1;
+  EXPECT_LE(images, 80U);
+  EXPECT_GE(images, PreparedScene(scene, relaying(2), IrradianceAt::point).lights().all().size() - 1);
+}
+
 // The mirror acts as a window: the image illuminates only places that see it through the mirror.
 TEST(VirtualSource, IsSeenThroughTheMirrorAlone) {
   const std::string pane =
