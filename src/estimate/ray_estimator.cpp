@@ -123,16 +123,14 @@ class Gathers {
   uint64_t traced_ = 0;
 };
 
-// A small fraction of the average radiance that the surfaces of the scene see (W/sr/m2), or of the irradiance
-// that it causes.
-double usualFloor(const Transport& transport) {
+// The average radiance that the surfaces of the scene see (W/sr/m2), or the irradiance that it causes.
+double usualValue(const Transport& transport) {
   RayOptions few = transport.prepared().options();  // a few paths are enough
   few.ambientAccuracy = few.ambientSuperSamples = 0;
   few.ambientDivisions = 1;
   const Transport ofPaths(transport, few);
   const SeenSources sources(ofPaths.prepared());
-  const double radiance =
-      tuning::RaySets::kDark * typicalRadiance({ofPaths.prepared(), ofPaths.caches()}, sources);
+  const double radiance = typicalRadiance({ofPaths.prepared(), ofPaths.caches()}, sources);
   return transport.prepared().irradiance() == IrradianceAt::none ? radiance : std::numbers::pi * radiance;
 }
 
@@ -146,7 +144,8 @@ RayEstimator::RayEstimator(const Transport& transport, const Options& options)
   if (options.accuracy > 0) {
     first_ = tuning::RaySets::kFirst;
     most_ = tuning::RaySets::kMost / (options.accuracy * options.accuracy * kSets);
-    if (floor_ < 0) floor_ = usualFloor(transport);
+    usual_ = usualValue(transport);
+    if (floor_ < 0) floor_ = tuning::RaySets::kDark * usual_;
     return;
   }
   floor_ = 0;
@@ -261,8 +260,13 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
       if (asked[half] > all.raysOf(half)) addRound(half, asked[half]);
   }
   const auto root = [](double v) { return std::sqrt(std::max(0., v)); };
-  const Variance variance = all.variance();
+  Variance variance = all.variance();
   answer.ray.value = all.mean();
+  // If no ray has found light, one more might have found as much as surfaces usually see.
+  if (gathers && isBlack(answer.ray.value.color) && variance.brightness == 0) {
+    const double missed = usual_ / (kInHalf * (all.raysOf(0) + all.raysOf(1)));
+    variance = {Color(missed * missed), missed * missed};
+  }
   answer.ray.mirrored = all.mirrored();
   answer.standardError = Radiance(variance.channels);
   answer.standardError.color.transform(root);

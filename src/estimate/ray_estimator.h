@@ -16,7 +16,7 @@
 // misses something bright seems less noisy than it is. If the stated error is still too large, all sets get
 // more rays; this causes the remaining bias (two_halves.h has measured it for points). Where the solutions
 // differ by much more than the accuracy, more rays do not help: the ray is then estimated by paths that use
-// no patches.
+// no patches. Where no ray finds light, the error is that of one ray more that finds the average radiance.
 #include <vector>
 
 #include "base/function_ref.h"
@@ -74,6 +74,7 @@ class RayEstimator {
   Options options_;
   double target_ = 0;            // relative error at which no more rays are sent; 0: one round of sets
   double floor_ = 0, most_ = 0;  // most_: rays of a set
+  double usual_ = 0;             // -Sa  value of a ray or sensor that sees the average radiance of the scene
   int first_ = 1;                // rays of a set in the first round
 };
 

@@ -26,7 +26,7 @@ PreparedScene::PreparedScene(const Scene& scene, const RayOptions& options, Irra
                     irradiance, basicRadiance, warn) {}
 
 PreparedScene::PreparedScene(const PreparedScene& other, const RayOptions& options)
-    : PreparedScene(other.scene_, other.tracer_, options, other.irradiance_, other.basicRadiance_, {}) {}
+    : PreparedScene(other.scene_, other.tracer_, options, IrradianceAt::none, other.basicRadiance_, {}) {}
 
 PreparedScene::PreparedScene(const Scene& scene, std::shared_ptr<const Tracer> tracer,
                              const RayOptions& options, IrradianceAt irradiance, bool basicRadiance,

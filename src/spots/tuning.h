@@ -5,9 +5,9 @@
 
 namespace rsphere::tuning {
 
-// Particles of sources with patterns (light_particles.cpp). kTried: number of ways of which one is followed; as
-// many as for light paths (VertexLight::kCandidates). kMeasured: number that measure the power: it is known
-// within a quarter if a beam fills a quarter of the hemisphere.
+// Particles of sources with patterns (light_particles.cpp). kTried: number of ways of which one is
+// followed; as many as for light paths (VertexLight::kCandidates). kMeasured: number that measure the
+// power: it is known within a quarter if a beam fills a quarter of the hemisphere.
 struct LightParticles {
   static constexpr size_t kTried = 8, kMeasured = 64;
 };

@@ -112,7 +112,8 @@ Targets TargetChoice::at(const V3d& point, double meanBrightness, size_t baseDir
                          baseDensity);
     density = std::max(density, least);
     if (!(density > 0) && solidAngle * baseDensity < tuning::Targets::kFewestFitted) continue;
-    targets.push_back({std::move(found.silhouette), density, least, density * solidAngle, found.continues});
+    targets.push_back({std::move(found.silhouette), density, density * solidAngle, found.continues});
+    targets.back().least = least;
   }
   reduceTo(static_cast<double>(most), targets);
   chooseFitted(targets, baseDensity);

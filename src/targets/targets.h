@@ -16,7 +16,6 @@ namespace rsphere {
 struct Target {
   Silhouette silhouette;
   double density = 0;      // extra directions per sr of its region
-  double least = 0;        // the part of the density that an opening needs to be seen
   double expected = 0;     // expected number of extra directions
   bool continues = false;  // part of one image together with the preceding target
   // Whether cells are fitted to its solid angle (cells_in_targets.h). Fitted targets do not overlap.
@@ -24,6 +23,7 @@ struct Target {
   // Whether cells end at its edge, so that the edge adds no variance: true if the target is fitted, or gets
   // more extra directions than base directions.
   bool hasOwnEdge = false;
+  double least = 0;  // the part of the density that an opening keeps if densities are reduced
 };
 
 // The targets of one point.

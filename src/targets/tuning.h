@@ -38,13 +38,14 @@ struct Targets {
   // - Spots of daylight. With the default number of directions, the errors in two sunlit rooms are 1.5 and
   //   1.8% with such targets, 2.75 and 1.9% without. With .25 or 1, no effect beyond noise.
   RSPHERE_DERIVED(Targets, double, kPartlyLit, .5);
-  // An opening gets at least Caps::kProbes directions if it would, unoccluded, give more than this fraction
-  // of the light at a point, and n^1/2 times as many if n times this fraction: chosen by experiment. With
-  // Caps::kProbes at most, and fewer where mirrors take most directions, a point below a skylight by a mirror
-  // has 5.2 instead of 2.3% of noise (tests/bench/rtrace/runs/2026-11-29-portals.txt). With .1, a far window that happens to be dark in the rays
-  // around a point causes errors of up to 10% instead of 5%. With only 8 directions, an opening with an
-  // eighth hidden often looks unobstructed. Without the minimum, variance x time is 1.46 times as large in a
-  // room with a small window (-aa .1), and 1.0 to 1.1 times in five other rooms
+  // An opening gets at least Caps::kProbes directions if it would, unoccluded, give more than this
+  // fraction of the light at a point, and n^1/2 times as many if n times this fraction: chosen by
+  // experiment. With Caps::kProbes at most, and fewer where mirrors take most directions, a point below a
+  // skylight by a mirror has 5.2 instead of 2.3% of noise
+  // (tests/bench/rtrace/runs/2026-11-29-portals.txt). With .1, a far window that happens to be dark in
+  // the rays around a point causes errors of up to 10% instead of 5%. With only 8 directions, an opening
+  // with an eighth hidden often looks unobstructed. Without the minimum, variance x time is 1.46 times as
+  // large in a room with a small window (-aa .1), and 1.0 to 1.1 times in five other rooms
   // (tests/bench/mechanisms/runs/2026-11-29-tails.txt).
   RSPHERE_TUNED(Targets, double, kLeastOpening, .01);
   // Cells in a target are fitted to its solid angle if at least this many directions are expected in it:

@@ -49,8 +49,9 @@ TEST(BrightSpots, AreNotWhereItIsEven) {
   EXPECT_TRUE(spotsOf(Traced("")).empty());
 }
 
-// A white box under a narrow beam on a black stage, of which particles in all directions would hit one in 250.
-// With patches or without, gathers of some hundred rays that hit the box by chance answered 0 with an error of 0.
+// A white box under a narrow beam on a black stage, of which particles in all directions would hit one in
+// 250. With patches or without, gathers of some hundred rays that hit the box by chance answered 0 with
+// an error of 0.
 TEST(BrightSpots, AreUnderNarrowBeams) {
   const std::string stage =
       "void plastic white\n0\n0\n5 .75 .75 .75 0 0\nvoid plastic black\n0\n0\n5 .02 .02 .02 0 0\n"

@@ -75,8 +75,8 @@ TEST(VirtualSource, MirrorsShowImagesOfImages) {
   }
 }
 
-// Between parallel mirrors, as many images as it takes are those by eight reflections; of many lamps in a room
-// of mirrors fewer, and a warning says so. Never fewer than by rtrace's default.
+// Between parallel mirrors, as many images as it takes are those by eight reflections; of many lamps in a
+// room of mirrors fewer, and a warning says so. Never fewer than by rtrace's default.
 TEST(VirtualSource, MirrorsShowAsManyImagesAsItTakes) {
   const std::string two = mirror(0, 1, .9) + mirror(4, -1, .9, "other");
   Traced needed = meters(lamp(kLamp) + two, RayOptions::kAllBounces), eight = meters(lamp(kLamp) + two, 8),
