@@ -25,8 +25,8 @@ class PreparedScene {
   // modifier of no surface.
   PreparedScene(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
                 bool basicRadiance = false, const rad::Warn& warn = {});
-  // Prepares the scene of `other` for radiance, with other options, without warnings. They share the tracer, which takes
-  // most of the memory and time in a large scene. REQUIRES that both have the same -bv.
+  // Prepares the scene of `other` for radiance, with other options, without warnings. They share the tracer,
+  // which takes most of the memory and time in a large scene. REQUIRES that both have the same -bv.
   PreparedScene(const PreparedScene& other, const RayOptions& options);
 
   const Scene& scene() const { return scene_; }

@@ -15,7 +15,8 @@ class Transport {
   // some paths to find the openings through which daylight enters. Throws the exceptions of PreparedScene.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
             bool basicRadiance = false, const rad::Warn& warn = {});
-  // Prepares the scene of `other` for radiance, with other options, without warnings. REQUIRES that both have the same -bv.
+  // Prepares the scene of `other` for radiance, with other options, without warnings. REQUIRES that both have
+  // the same -bv.
   Transport(const Transport& other, const RayOptions& options);
 
   const PreparedScene& prepared() const { return prepared_; }
