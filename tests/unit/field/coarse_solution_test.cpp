@@ -155,6 +155,29 @@ TEST(CoarseSolution, LightOfManyBouncesIsASeriesToo) {
   EXPECT_GE(found, 4);
 }
 
+// Also between parallel surfaces, as of louvers, where only one shines: each then receives the light of every
+// other bounce alone.
+TEST(CoarseSolution, LightOfManyBouncesMayAlternate) {
+  constexpr int kBounces = 40, kComputed = 12;
+  constexpr double kHeight = .01;
+  const Traced gap("void plastic gray 0 0 5 .6 .6 .6 0 0\n" + roomOf("gray", V3d(4, 3, kHeight)));
+  FurnaceRays rays(gap.prepared().tracer(), kBounces,
+                   [](const SurfacePlace& place) { return place.point.z < kHeight / 2 ? 1 : 0; });
+  RayOptions options = optionsOf(kBounces);
+  options.ambientValue = Radiance(0);
+  CoarseSolution solution(gap.scene(), gap.prepared().tracer().bounds(), fieldOptions(options), 1);
+  rays.solve(solution);
+  for (const double up : {-1., 1.}) {
+    SurfacePlace place = rays.placeAlong(V3d(2.1, 1.6, kHeight / 2), V3d(0, 0, up));
+    place.distance = 2;
+    const PatchPlace on = solution.find(place, rays);
+    ASSERT_TRUE(on.patch);
+    const double rest = solution.light(on, kBounces, rays).x - solution.light(on, kComputed, rays).x;
+    const double next = std::pow(kReflectance, up > 0 ? kComputed : kComputed + 1);
+    EXPECT_NEAR(rest, next / (1 - kReflectance * kReflectance), .1 * next) << up;
+  }
+}
+
 // The rays that the patch of a place on the floor of the box has, for a room of this size.
 int raysOfPatch(const Traced& box, const RayOptions& options, double room, double distance = 0,
                 double covered = 1) {
