@@ -5,6 +5,7 @@
 #include "light/surface_point.h"
 #include "openings/tuning.h"
 #include "shade/scattering.h"
+#include "spots/light_particles.h"
 
 namespace rsphere {
 namespace {
@@ -21,21 +22,6 @@ bool holds(const Material* material) {
 const Material* materialOfFinish(const Scene& scene, const Finish& finish) {
   if (finish.modifier != finish.material || finish.clip != 0) return nullptr;
   return scene.materialAt(finish.material);
-}
-
-// Whether `modifier` and all modifiers after it are patterns that satisfy isOfKind. Errors are ignored here,
-// and reported when a ray hits the pattern.
-template <class IsOfKind>
-bool arePatterns(const Scene& scene, ModifierId modifier, const IsOfKind& isOfKind) {
-  for (; modifier != kNone; modifier = scene.modifiers[modifier].next) {
-    if (!std::holds_alternative<Pattern>(scene.modifiers[modifier].content)) return false;
-    try {
-      if (!isOfKind(modifier)) return false;
-    } catch (const rad::Error&) {
-      return false;
-    }
-  }
-  return true;
 }
 
 bool hasMist(const Scene& scene) {
@@ -223,13 +209,9 @@ Radiance PlainSurfaces::radianceOf(LightId source, const V3d& point, const V3d& 
                                    FunctionScratch& scratch) const {
   if (const Radiance* const constant = prepared_.lights().constantRadiance(source)) return *constant;
   const Surface surface = scene_.surfaces[prepared_.lights().all()[source].surface];
-  FunctionPoint here;
-  here.direction = direction;
-  here.normal = normal;
-  here.cosine = -normal.dot(direction);
-  here.point = point;
+  const ModifierId patterns = scene_.modifiers[surface.material].next;
   return Radiance(sourceRadiance(scene_, surface).color *
-                  patternFrom(scene_.modifiers[surface.material].next, here, scratch));
+                  patternOfSource(prepared_.functions(), patterns, point, normal, direction, scratch));
 }
 
 double chanceOf(LightId source, const PlainSurfaces& surfaces, const V3d& point, const V3d& normal,
@@ -316,26 +298,16 @@ PlainPlace PlainSurfaces::placeOf(const V3d& origin, const V3d& direction, const
 
 Color PlainSurfaces::patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit,
                                FunctionScratch& scratch) const {
-  FunctionPoint here;
-  here.direction = direction;
-  here.normal = hit.normal;
-  here.cosine = hit.cosine;
-  here.point = at.point;
-  here.u = hit.u;
-  here.v = hit.v;
-  here.path = hit.path;
-  Color pattern = patternFrom(finishOf(at.surface).patterns, here, scratch);
+  const FunctionPoint here{.direction = direction,
+                           .normal = hit.normal,
+                           .cosine = hit.cosine,
+                           .point = at.point,
+                           .u = hit.u,
+                           .v = hit.v,
+                           .path = hit.path};
+  Color pattern = prepared_.functions().patterns(finishOf(at.surface).patterns, here, scratch);
   // A negative reflectance is treated as black.
   pattern.transform([](double share) { return std::max(0., share); });
-  return pattern;
-}
-
-// The product of all patterns of a chain.
-Color PlainSurfaces::patternFrom(ModifierId first, const FunctionPoint& here,
-                                 FunctionScratch& scratch) const {
-  Color pattern(1, 1, 1);
-  for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next)
-    pattern *= prepared_.functions().pattern(i, here, scratch);
   return pattern;
 }
 

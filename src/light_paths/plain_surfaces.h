@@ -112,7 +112,6 @@ class PlainSurfaces {
   bool isKnown(LightId source) const;
   bool isLitOutdoors(const LightSource& image) const;
   void findSurfaces();
-  Color patternFrom(ModifierId first, const FunctionPoint& here, FunctionScratch& scratch) const;
   Color patternAt(const PlainPlace& at, const V3d& direction, const Hit& hit, FunctionScratch& scratch) const;
 
   const PreparedScene& prepared_;

@@ -5,7 +5,6 @@
 
 #include "base/constants.h"
 #include "light_paths/tuning.h"
-#include "spots/light_particles.h"
 
 namespace rsphere {
 namespace {
@@ -88,7 +87,7 @@ SourceEmission::Leaving SourceEmission::leave(LightId source, ScrambledPoint& ra
   Leaving chosen;
   double sum = 0;
   for (size_t i = 0; i < tries; ++i) {
-    const Way tried = way(source, random, scratch);
+    const Candidate tried = candidate(source, random, scratch);
     const double bright = std::max(0., brightness(tried.radiance)) * tried.weight;
     sum += bright;
     if (!(bright > 0) || (tries > 1 && random.uniform() * sum >= bright)) continue;
@@ -119,18 +118,10 @@ SourceEmission::Leaving SourceEmission::leaveDistant(LightId source, ScrambledPo
 }
 
 template <class Numbers>
-SourceEmission::Way SourceEmission::way(LightId source, Numbers& random, FunctionScratch& scratch) const {
-  const Scene& scene = prepared_.scene();
-  const LightSource& light = prepared_.lights().all()[source];
-  Way way{samplePoint(scene.surfaces[light.surface].shape, scene.vertices, random)};
-  if (light.spot) {
-    way.direction = withinCone(light.spot->aim, light.spot->solidAngle, random);
-    way.weight = std::max(0., way.from.normal.dot(way.direction)) * light.spot->solidAngle / kPi;
-  } else {
-    way.direction = sentFrom(way.from.normal, random);
-  }
-  way.radiance = surfaces_.radianceOf(source, way.from.point, way.from.normal, -way.direction, scratch);
-  return way;
+SourceEmission::Candidate SourceEmission::candidate(LightId source, Numbers& random,
+                                                    FunctionScratch& scratch) const {
+  const LampWay way = wayFrom(prepared_.scene(), prepared_.lights().all()[source], random);
+  return {way, surfaces_.radianceOf(source, way.from.point, way.from.normal, -way.direction, scratch)};
 }
 
 // Estimates the power of a source that is not even, from random directions. One more direction is assumed to
@@ -141,7 +132,7 @@ double SourceEmission::triedPower(LightId source) const {
   FunctionScratch scratch;
   double sum = 0;
   for (size_t i = 0; i < tuning::LightVertices::kMeasured; ++i) {
-    const Way tried = way(source, random, scratch);
+    const Candidate tried = candidate(source, random, scratch);
     sum += std::max(0., brightness(tried.radiance)) * tried.weight;
   }
   const Scene& scene = prepared_.scene();

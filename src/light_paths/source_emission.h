@@ -7,8 +7,8 @@
 // point and a direction) are sampled, and one is selected with a probability proportional to its power
 // (resampled importance sampling: Talbot, Cline and Egbert 2005, "Importance resampling for global
 // illumination").
-#include "light/surface_point.h"
 #include "light_paths/plain_surfaces.h"
+#include "spots/light_particles.h"
 
 namespace rsphere {
 
@@ -69,14 +69,11 @@ class SourceEmission {
     bool even = false;
   };
   // A candidate for the start of a light path.
-  struct Way {
-    SurfacePoint from;
-    V3d direction{0, 0, 1};
-    Radiance radiance{};
-    double weight = 1;  // density of a diffuse emitter's light, divided by the density of candidates
+  struct Candidate : LampWay {
+    Radiance radiance;
   };
   template <class Numbers>
-  Way way(LightId source, Numbers& random, FunctionScratch& scratch) const;
+  Candidate candidate(LightId source, Numbers& random, FunctionScratch& scratch) const;
   Leaving leaveDistant(LightId source, ScrambledPoint& random) const;
   double triedPower(LightId source) const;
   void share();

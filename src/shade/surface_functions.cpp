@@ -592,6 +592,12 @@ Color SurfaceFunctions::pattern(ModifierId modifier, const FunctionPoint& at,
   return f.results == 1 ? Color(v[0], v[0], v[0]) : Color(v[0], v[1], v[2]);
 }
 
+Color SurfaceFunctions::patterns(ModifierId first, const FunctionPoint& at, FunctionScratch& scratch) const {
+  Color product(1, 1, 1);
+  for (ModifierId i = first; i != kNone; i = scene_.modifiers[i].next) product *= pattern(i, at, scratch);
+  return product;
+}
+
 bool SurfaceFunctions::dependsOnPlaceAlone(ModifierId pattern) const {
   using namespace rad::calc;
   return (ready(pattern).needs & (bits(Dx, 3) | bits(T, 1) | bits(Rdot, 1) | bits(Ts, 1))) == 0;

@@ -73,6 +73,8 @@ class SurfaceFunctions {
   // (spectrum, specfile, specfunc, specdata, specpict), the color has bands in a spectral run; in a run of
   // three channels it is RADIANCE's conversion of the spectrum to red, green and blue.
   Color pattern(ModifierId modifier, const FunctionPoint& at, FunctionScratch& scratch) const;
+  // The product of the patterns of a chain, which contains nothing else.
+  Color patterns(ModifierId first, const FunctionPoint& at, FunctionScratch& scratch) const;
   // Whether a pattern is the same for all rays that hit the same place.
   bool dependsOnPlaceAlone(ModifierId pattern) const;
   // Whether a pattern depends on the distance that the rays have travelled.

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "light/surface_point.h"
 #include "spots/tuning.h"
 
 namespace rsphere {
@@ -22,29 +21,26 @@ namespace {
 class Lamp {
  public:
   Lamp(const Scene& scene, const LightSource& light, const SurfaceFunctions& functions)
-      : scene_(scene), light_(light), functions_(functions), shape_(scene.surfaces[light.surface].shape) {
+      : scene_(scene), light_(light), functions_(functions) {
     const Surface surface = scene.surfaces[light.surface];
     if (surface.goal || surface.modifier != surface.material) return;
     const ModifierId first = scene.modifiers[surface.material].next;
-    for (ModifierId i = first; i != kNone; i = scene.modifiers[i].next)
-      if (!std::holds_alternative<Pattern>(scene.modifiers[i].content) || !isReadable(i)) return;
-    patterns_ = first;
+    // dependsOnDistance() throws if files of the pattern cannot be read.
+    const auto isReadable = [&](ModifierId i) { return functions.dependsOnDistance(i), true; };
+    if (arePatterns(scene, first, isReadable)) patterns_ = first;
   }
 
-  // A place and a direction in which light leaves, and its radiance there, relative to that without patterns.
-  struct Way {
-    SurfacePoint from;
-    V3d direction;
-    double bright = 1;
+  struct BrightWay : LampWay {
+    double bright = 1;  // radiance relative to that without patterns
   };
   // The brightest of some ways, each chosen in proportion to its brightness (as source_emission.h does). The
   // brightness of the result is their mean.
-  Way leave(Random& random) {
+  BrightWay leave(Random& random) {
     if (patterns_ == kNone) return tried(random);
-    Way chosen;
+    BrightWay chosen;
     double sum = 0;
     for (size_t i = 0; i < tuning::LightParticles::kTried; ++i) {
-      const Way one = tried(random);
+      const BrightWay one = tried(random);
       sum += one.bright;
       if (i == 0 || random.uniform() * sum < one.bright) chosen = one;
     }
@@ -61,35 +57,16 @@ class Lamp {
   }
 
  private:
-  // Whether the files of a pattern can be read. If not, rays that show the source say so.
-  bool isReadable(ModifierId pattern) const {
-    try {
-      functions_.dependsOnDistance(pattern);
-    } catch (const rad::Error&) {
-      return false;
-    }
-    return true;
-  }
-  Way tried(Random& random) {
-    Way way{samplePoint(shape_, scene_.vertices, random), {}};
-    way.direction = light_.spot ? withinCone(light_.spot->aim, light_.spot->solidAngle, random)
-                                : sentFrom(way.from.normal, random);
-    FunctionPoint here;
-    here.direction = -way.direction;
-    here.normal = way.from.normal;
-    here.cosine = way.from.normal.dot(way.direction);
-    here.point = way.from.point;
-    Color pattern(1, 1, 1);
-    for (ModifierId i = patterns_; i != kNone; i = scene_.modifiers[i].next)
-      pattern *= functions_.pattern(i, here, scratch_);
-    way.bright = std::max(0., brightness(Radiance(pattern)));
-    return way;
+  BrightWay tried(Random& random) {
+    const LampWay way = wayFrom(scene_, light_, random);
+    const Color pattern =
+        patternOfSource(functions_, patterns_, way.from.point, way.from.normal, -way.direction, scratch_);
+    return {way, std::max(0., brightness(Radiance(pattern)))};
   }
 
   const Scene& scene_;
   const LightSource& light_;
   const SurfaceFunctions& functions_;
-  ShapeRef shape_;
   ModifierId patterns_;  // kNone: none, or not patterns alone
   FunctionScratch scratch_;
 };
@@ -132,7 +109,7 @@ void sendParticles(const Scene& scene, const Tracer& tracer, const LightSources&
     }
     Lamp lamp(scene, *sender.light, functions);
     for (due += sender.power / one; due >= 1; --due) {
-      const Lamp::Way way = lamp.leave(random);
+      const auto way = lamp.leave(random);
       each(way.from.point + 2 * scene.samePlace * way.from.normal, way.direction,
            one * way.bright / sender.mean, surface, random);
     }
