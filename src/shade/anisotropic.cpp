@@ -20,11 +20,6 @@ double schlick(double cosine) {
   return c2 * c2 * c;
 }
 
-V3d normalOf(const Interaction& at, double& cosine) {
-  cosine = at.cosine;
-  return isPerturbed(at) ? perturbedNormal(at, cosine) : at.normal;
-}
-
 Color gray(double x) { return Color(x, x, x); }
 
 // Sets the lobe's tangents and its mean square slopes along them.

@@ -3,20 +3,13 @@
 namespace rsphere {
 namespace {
 
-FunctionScattering begin(const Interaction& at) {
-  FunctionScattering s;
-  s.normal = at.normal;
-  s.cosine = at.cosine;
-  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
-  return s;
-}
-
 Coefficient coefficientOf(const std::array<double, 3>& v) { return Coefficient(Color(v[0], v[1], v[2])); }
 
 }  // namespace
 
 FunctionScattering scatter(const FunctionScatterer& m, const Interaction& at) {
-  FunctionScattering s = begin(at);
+  FunctionScattering s;
+  s.normal = normalOf(at, s.cosine);
   s.color = m.color * at.pattern;
   const double passes = m.transmissivity * (1 - m.specularity);
   const double directional = passes * m.transmittedSpecular;
@@ -31,7 +24,8 @@ FunctionScattering scatter(const FunctionScatterer& m, const Interaction& at) {
 }
 
 FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
-  FunctionScattering s = begin(at);
+  FunctionScattering s;
+  s.normal = normalOf(at, s.cosine);
   s.color = at.pattern;
   s.diffuseReflection = s.ambientReflection = (at.front ? m.diffuseFront : m.diffuseBack) * at.pattern;
   s.diffuseTransmission = s.ambientTransmission = m.diffuseTransmitted * at.pattern;

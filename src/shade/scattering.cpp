@@ -40,9 +40,7 @@ Gloss gloss(double specularity, double roughness, double cosine) {
 }
 
 void beginScattering(Scattering& s, const Interaction& at, double roughness) {
-  s.normal = at.normal;
-  s.cosine = at.cosine;
-  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  s.normal = normalOf(at, s.cosine);
   s.cosine = std::max(s.cosine, .001);
   s.alpha2 = roughness * roughness;
   s.widenReflection = at.flat && !isPerturbed(at);
@@ -205,9 +203,7 @@ Scattering scatter(const Interface& material, const Interaction& at, bool basic)
 
 Scattering scatter(const Glass& material, const Interaction& at) {
   Scattering s;
-  s.normal = at.normal;
-  s.cosine = at.cosine;
-  if (isPerturbed(at)) s.normal = perturbedNormal(at, s.cosine);
+  s.normal = normalOf(at, s.cosine);
   const double n = material.refraction;
   const double inside = std::sqrt(1 - 1 / (n * n) + s.cosine * s.cosine / (n * n));
   double reflected[2];  // amplitudes at a single surface, for the two polarisations

@@ -140,6 +140,11 @@ inline bool isPerturbed(const Interaction& at) {
 
 // The perturbed normal, kept on the ray's side. Sets cosine to -normal . direction (not negative).
 V3d perturbedNormal(const Interaction& at, double& cosine);
+// The normal for scattering: perturbedNormal(), or that of the surface if no texture tilts it.
+inline V3d normalOf(const Interaction& at, double& cosine) {
+  cosine = at.cosine;
+  return isPerturbed(at) ? perturbedNormal(at, cosine) : at.normal;
+}
 
 // A cosine-weighted direction (unit) around the normal, for uniform u1, u2 in [0, 1).
 V3d diffuseDirection(const V3d& normal, double u1, double u2);
