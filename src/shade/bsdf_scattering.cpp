@@ -22,8 +22,8 @@ std::optional<BsdfFrame> bsdfFrame(const Interaction& at, const V3d& up) {
 BsdfScattering::BsdfScattering(const BsdfMaterial& material, const BsdfData& data, const Interaction& at,
                                const BsdfFrame& frame, double thickness, int views,
                                const MaterialOptions& options)
-    : data_(&data),
-      at_(at),
+    : UsualScattering(at),
+      data_(&data),
       frame_(frame),
       thick_(thickness != 0),
       views_(views),

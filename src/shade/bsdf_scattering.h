@@ -39,7 +39,6 @@ class BsdfScattering : public UsualScattering {
                                                          : transmittance_ + unsampledTransmission_);
   }
   const V3d& normal(Component) const { return frame_.normal; }
-  const V3d& trueNormal() const { return at_.normal; }
   // Transmitted light, also of sources behind the surface, arrives behind the thickness. Without a thickness,
   // both sides get their direct light at the same point, in a single estimate.
   const V3d& offset(Component component) const {
@@ -57,7 +56,6 @@ class BsdfScattering : public UsualScattering {
   Color directed(const V3d& toSource, double solidAngle, Random& random) const;
 
   const BsdfData* data_;
-  Interaction at_;
   BsdfFrame frame_;
   bool thick_;
   int views_;

@@ -89,13 +89,20 @@ concept ScattersLight = requires(S s, const S& c, Component component, Random& r
 };
 
 // The answers of most models.
-struct UsualScattering {
+class UsualScattering {
+ public:
+  explicit UsualScattering(const Interaction& at) : at_(at) {}
+
+  const V3d& trueNormal() const { return at_.normal; }
   static Components components() { return kComponents; }
   static const V3d& offset(Component) { return kNoOffset; }
   static const V3d& front() { return kNoFront; }
   static double lobeDensity(Component, const V3d&) { return 0; }
   static Color lobeShare(Component) { return {}; }
   static bool isEven() { return false; }
+
+ protected:
+  Interaction at_;
 };
 
 // plastic, metal, trans: rotationally symmetric lobes (scattering.h).
@@ -119,7 +126,6 @@ class RoundScattering : public UsualScattering {
                                                          : scattering_.ambientTransmission);
   }
   const V3d& normal(Component) const { return scattering_.normal; }
-  const V3d& trueNormal() const { return at_.normal; }
   bool takesDirect(Component component) const {
     return component == components().back() && (transmits_ || !isBlack(scattering_.diffuseReflection) ||
                                                 !isBlack(scattering_.specularReflection));
@@ -143,13 +149,12 @@ class RoundScattering : public UsualScattering {
  private:
   template <class M>
   RoundScattering(const M& material, const MaterialHit& hit, bool mayTransmit)
-      : at_(hit.interaction()),
+      : UsualScattering(hit.interaction()),
         scattering_(scatter(material, at_, hit.options().specularThreshold)),
         mayTransmit_(mayTransmit),
         transmits_(mayTransmit),
         spread_(hit.options()) {}
 
-  Interaction at_;
   Scattering scattering_;
   bool mayTransmit_, transmits_;
   SampleSpread spread_;
@@ -161,7 +166,7 @@ class EllipticScattering : public UsualScattering {
   // along: as for scatter(const Anisotropic&, ...). Warns once per material if a highlight is anisotropic but
   // its orientation vector defines no tangent direction.
   EllipticScattering(const Anisotropic& material, const V3d& along, const MaterialHit& hit)
-      : at_(hit.interaction()),
+      : UsualScattering(hit.interaction()),
         scattering_(scatter(material, at_, along, hit.options().specularThreshold)),
         spread_(hit.options()) {
     if (scattering_.reflected.disoriented || scattering_.transmitted.disoriented)
@@ -169,7 +174,7 @@ class EllipticScattering : public UsualScattering {
   }
   EllipticScattering(const AnisotropicScattering& scattering, const Interaction& at,
                      const MaterialOptions& options)
-      : at_(at), scattering_(scattering), spread_(options) {}
+      : UsualScattering(at), scattering_(scattering), spread_(options) {}
 
   const SharpPaths& sharp() const { return scattering_.sharp; }
   std::optional<Lobe> lobe(Component component, Random&) const {
@@ -178,7 +183,6 @@ class EllipticScattering : public UsualScattering {
   LobeSample draw(Component component, int i, int n, Random& random) const;
   Coefficient indirect(Component component) const { return Coefficient(diffuse(component).ambient); }
   const V3d& normal(Component component) const { return diffuse(component).normal; }
-  const V3d& trueNormal() const { return at_.normal; }
   bool takesDirect(Component component) const { return component == Component::transmitted; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle, spread_.source);
@@ -198,7 +202,6 @@ class EllipticScattering : public UsualScattering {
     return component == Component::reflected ? scattering_.reflection : scattering_.transmission;
   }
 
-  Interaction at_;
   AnisotropicScattering scattering_;
   SampleSpread spread_;
 };
@@ -207,7 +210,7 @@ class EllipticScattering : public UsualScattering {
 class AshikhminLobeScattering : public UsualScattering {
  public:
   AshikhminLobeScattering(const AshikhminScattering& scattering, const Interaction& at)
-      : at_(at), scattering_(scattering) {}
+      : UsualScattering(at), scattering_(scattering) {}
 
   const SharpPaths& sharp() const { return sharp_; }
   Components components() const { return Components(kComponents).first(1); }
@@ -215,14 +218,12 @@ class AshikhminLobeScattering : public UsualScattering {
   LobeSample draw(Component component, int i, int n, Random& random) const;
   Coefficient indirect(Component) const { return Coefficient(scattering_.reflection.ambient); }
   const V3d& normal(Component) const { return scattering_.reflection.normal; }
-  const V3d& trueNormal() const { return at_.normal; }
   bool takesDirect(Component) const { return true; }
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, at_.direction, toSource, solidAngle);
   }
 
  private:
-  Interaction at_;
   AshikhminScattering scattering_;
   SharpPaths sharp_;  // always empty
 };
@@ -234,7 +235,7 @@ class ProgrammedScattering : public UsualScattering {
   ProgrammedScattering(const FunctionScattering& scattering, const Interaction& at,
                        const FunctionPoint& point, const SurfaceFunctions& functions,
                        FunctionScratch& scratch, ModifierId material)
-      : at_(at),
+      : UsualScattering(at),
         scattering_(scattering),
         point_(point),
         functions_(&functions),
@@ -249,7 +250,6 @@ class ProgrammedScattering : public UsualScattering {
                                                          : scattering_.ambientTransmission);
   }
   const V3d& normal(Component) const { return scattering_.normal; }
-  const V3d& trueNormal() const { return at_.normal; }
   bool takesDirect(Component component) const;
   Coefficient coefficient(Component, const V3d& toSource, double solidAngle, Random&) const {
     return directCoefficient(scattering_, toSource, solidAngle, [&] {
@@ -258,7 +258,6 @@ class ProgrammedScattering : public UsualScattering {
   }
 
  private:
-  Interaction at_;
   FunctionScattering scattering_;
   FunctionPoint point_;
   const SurfaceFunctions* functions_;
