@@ -15,8 +15,8 @@ struct Place {
   uint32_t line = 0;
 };
 
-// The primitive types of the scene language (RADIANCE reference manual, "Scene description"). isSurface() and
-// isMixture() rely on the groups. clang-format off
+// The primitive types of the scene language (RADIANCE reference manual, "Scene description"). isSurface(),
+// isMixture() and xform rely on the groups. clang-format off
 enum class Type : uint8_t {
   // surfaces
   source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,

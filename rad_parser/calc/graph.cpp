@@ -9,63 +9,27 @@ namespace {
 
 constexpr uint32_t kMostCost = 1u << 20;  // cap on costs, so that sums do not overflow
 
+// Whether an operation is one of these, in the order of the enumeration.
+bool isWithin(Op op, Op first, Op last) { return first <= op && op <= last; }
+
 uint32_t ownCost(Op op) {
-  switch (op) {
-    case Op::constant:
-    case Op::input:
-    case Op::argument:
-    case Op::parameter: return 0;
-    case Op::negate:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::min:
-    case Op::max:
-    case Op::finite: return 1;
-    case Op::divide:
-    case Op::sqrt:
-    case Op::floor:
-    case Op::ceil:
-    case Op::realArgument: return 3;
-    case Op::ifPositive:
-    case Op::select: return 2;
-    case Op::noise3: return 30;
-    case Op::host:
-    case Op::call:
-    case Op::global:
-    case Op::fractalNoise3: return 100;
-    default: return 15;
-  }
+  if (isWithin(op, Op::constant, Op::parameter)) return 0;
+  if (isWithin(op, Op::negate, Op::multiply) || isWithin(op, Op::min, Op::max) || op == Op::finite) return 1;
+  if (isWithin(op, Op::ifPositive, Op::select)) return 2;
+  if (op == Op::divide || isWithin(op, Op::sqrt, Op::ceil) || op == Op::realArgument) return 3;
+  if (op == Op::noise3) return 30;
+  if (op == Op::global || op == Op::fractalNoise3 || isWithin(op, Op::host, Op::call)) return 100;
+  return 15;
 }
 
 }  // namespace
 
 int directOperands(Op op) {
-  switch (op) {
-    case Op::constant:
-    case Op::input:
-    case Op::argument:
-    case Op::parameter:
-    case Op::global:
-    case Op::fail:
-    case Op::select:
-    case Op::host:
-    case Op::call: return 0;
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
-    case Op::power:
-    case Op::atan2:
-    case Op::jn:
-    case Op::yn:
-    case Op::min:
-    case Op::max: return 2;
-    case Op::noise3:
-    case Op::fractalNoise3:
-    case Op::ifPositive: return 3;
-    default: return 1;
-  }
+  if (isWithin(op, Op::constant, Op::global) || op == Op::select || isWithin(op, Op::host, Op::fail))
+    return 0;
+  if (isWithin(op, Op::add, Op::power) || isWithin(op, Op::atan2, Op::max)) return 2;
+  if (isWithin(op, Op::noise3, Op::fractalNoise3) || op == Op::ifPositive) return 3;
+  return 1;
 }
 
 Id Graph::add(Node n) {
@@ -194,16 +158,9 @@ bool Graph::isAlwaysFinite(const Node& n) const {
     case Op::negate: return nodes_[n.a].isFinite;
     case Op::min:
     case Op::max: return nodes_[n.a].isFinite && nodes_[n.b].isFinite;
-    case Op::argument:
-    case Op::parameter:
-    case Op::global:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
     case Op::call:
     case Op::realArgument: return false;
-    default: return true;
+    default: return !isWithin(n.op, Op::argument, Op::global) && !isWithin(n.op, Op::add, Op::divide);
   }
 }
 

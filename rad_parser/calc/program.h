@@ -52,6 +52,7 @@ class State {
   std::vector<Return> returns_;
 };
 
+// The functions of graph.cpp rely on the order.
 enum class Op : uint8_t {
   // values without operands
   constant,

@@ -76,6 +76,17 @@ std::string prefixSources(std::string_view path, const std::string& prefix) {
   return result;
 }
 
+// Whether the function file, data, picture, octree or mesh of this type is transformed, by xform options after
+// the string arguments.
+bool hasTransform(Type type) {
+  static_assert(kTypes == 59, "Does a new type have a transform?");
+  const auto isWithin = [type](Type first, Type last) { return first <= type && type <= last; };
+  return isWithin(Type::instance, Type::mesh) || isWithin(Type::prism1, Type::prism2) ||
+         isWithin(Type::plastic2, Type::ashik2) || isWithin(Type::plasfunc, Type::wgmdfunc) ||
+         isWithin(Type::texfunc, Type::colorpict) || type == Type::specpict ||
+         isWithin(Type::mixfunc, Type::mixpict);
+}
+
 // Applies a transform to the arguments of one primitive.
 class ArgumentTransform {
  public:
@@ -131,54 +142,10 @@ class ArgumentTransform {
         turnVector(3);
         turnVector(6);
         return true;
-      // For these types, the function file, data, picture, octree or mesh is transformed, by xform options
-      // after the string arguments.
-      case Type::instance:
-      case Type::mesh:
-      case Type::texfunc:
-      case Type::texdata:
-      case Type::plastic2:
-      case Type::metal2:
-      case Type::trans2:
-      case Type::ashik2:
-      case Type::plasfunc:
-      case Type::metfunc:
-      case Type::transfunc:
-      case Type::brtdfunc:
-      case Type::plasdata:
-      case Type::metdata:
-      case Type::transdata:
-      case Type::bsdf:
-      case Type::absdf:
-      case Type::wgmdfunc:
-      case Type::prism1:
-      case Type::prism2:
-      case Type::colorfunc:
-      case Type::brightfunc:
-      case Type::specfunc:
-      case Type::colordata:
-      case Type::brightdata:
-      case Type::specdata:
-      case Type::colorpict:
-      case Type::specpict:
-      case Type::mixfunc:
-      case Type::mixdata:
-      case Type::mixpict:
-        for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
-        return false;
-      // These types have no lengths, places or directions.
-      case Type::light:
-      case Type::illum:
-      case Type::mirror:
-      case Type::plastic:
-      case Type::metal:
-      case Type::trans:
-      case Type::glass:
-      case Type::antimatter:
-      case Type::spectrum:
-      case Type::specfile:
-      case Type::alias: return false;
+      default: break;
     }
+    if (hasTransform(p_.type))
+      for (const std::string& argument : transform_.arguments) builder_.addString(p_, argument);
     return false;
   }
 

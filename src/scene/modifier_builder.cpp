@@ -99,6 +99,7 @@ ModifierBuilder::Made ModifierBuilder::mixture(PrimitiveId i, Arguments read) {
 }
 
 ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
+  static_assert(rad::kTypes == 59, "Which modifier is a new type?");
   const PrimitiveArguments arguments(scene_.description, i);
   switch (arguments.type()) {
     case Type::brightfunc:
@@ -157,20 +158,8 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
     }
     case Type::glow: return readGlow(arguments);
     case Type::spotlight: return readSpotlight(arguments);
-    case Type::source:
-    case Type::sphere:
-    case Type::bubble:
-    case Type::polygon:
-    case Type::cone:
-    case Type::cup:
-    case Type::cylinder:
-    case Type::tube:
-    case Type::ring:
-    case Type::instance:
-    case Type::mesh:
-    case Type::alias: break;  // not modifiers; modifier() resolves aliases
+    default: arguments.fail("this type is not supported yet");  // modifier() resolves aliases
   }
-  arguments.fail("this type is not supported yet");
 }
 
 Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& arguments) {
