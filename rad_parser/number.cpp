@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <locale>
+#include <sstream>
+#include <string>
 
 namespace rad {
 namespace {
@@ -13,19 +16,11 @@ bool isDigit(char c) { return '0' <= c && c <= '9'; }
 // Whether a number that a double cannot represent is too small rather than too large. digits: a valid number
 // without sign.
 bool tooSmall(std::string_view digits) {
-  const size_t e = digits.find_first_of("eE");
-  const std::string_view mantissa = digits.substr(0, e);
-  int32_t exponent = 0;
-  if (e != digits.npos) {
-    std::string_view word = digits.substr(e + 1);
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), exponent);
-    if (fault != std::errc()) return word.starts_with('-');
-  }
-  const size_t first = mantissa.find_first_of("123456789");
-  if (first == mantissa.npos) return true;
-  const size_t point = std::min(mantissa.find('.'), mantissa.size());
-  return exponent + static_cast<int64_t>(point) - static_cast<int64_t>(first) < 0;
+  std::istringstream text{std::string(digits)};
+  text.imbue(std::locale::classic());
+  double nearest = 0;
+  text >> nearest;
+  return nearest < 1;
 }
 
 // Powers of ten, by the number of digits that are read together.
