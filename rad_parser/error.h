@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "rad_parser/printable.h"
+
 namespace rad {
 
 // The exit status of a program that stops because of an error, as in rtrace(1).
@@ -13,7 +15,8 @@ enum class Status { input = 1, system = 2, signal = 3 };
 // of the text (messageLine(), printable.h).
 class Error : public std::runtime_error {
  public:
-  explicit Error(std::string_view text, Status status = Status::input);
+  explicit Error(std::string_view text, Status status = Status::input)
+      : std::runtime_error(messageLine(text)), status_(status) {}
   Status status() const { return status_; }
 
  private:

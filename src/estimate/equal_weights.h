@@ -10,7 +10,12 @@ class EqualWeights : public SamplingStrategy {
   // Keeps references to both.
   EqualWeights(const SphereOptions& options, const BaseSet& base) : options_(options), base_(base) {}
 
-  SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace& memory) const override;
+  SampledSet sample(const SetAtPoint& set, PathTracer& tracer, VoronoiWorkspace&) const override {
+    const std::vector<V3d> directions = set.turned(base_.directions);
+    SampledSet sampled = traceEach(set, directions, base_.solidAngles, options_.everyDirection, tracer);
+    if (base_.neighbours) sampled.setVariance(*base_.neighbours, base_);
+    return sampled;
+  }
 
  private:
   const SphereOptions& options_;

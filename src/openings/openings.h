@@ -6,6 +6,7 @@
 //
 // Source: Bitterli, Novák, Jarosz, "Portal-masked environment map sampling" (Computer Graphics Forum 34,
 // 2015). Differences: portals are found automatically, and sampled by area.
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <utility>
@@ -41,11 +42,26 @@ struct Opening : Rectangle {
 };
 
 // The projected area (square world units) of openings for light that enters in this direction (unit).
-double areaTowards(std::span<const Opening> openings, const V3d& direction);
+inline double areaTowards(std::span<const Opening> openings, const V3d& direction) {
+  double sum = 0;
+  for (const Opening& o : openings) sum += std::max(0., direction.dot(o.normal)) * o.area();
+  return sum;
+}
 
 // A point on the openings, uniform by projected area; u1, u2, u3: uniform in [0, 1). REQUIRES a projected
 // area above 0.
-V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2, double u3);
+inline V3d pointTowards(std::span<const Opening> openings, const V3d& direction, double u1, double u2,
+                        double u3) {
+  double due = u1 * areaTowards(openings, direction);
+  const Opening* chosen = nullptr;
+  for (const Opening& o : openings) {
+    const double area = std::max(0., direction.dot(o.normal)) * o.area();
+    if (area > 0) chosen = &o;
+    if (due < area) break;
+    due -= area;
+  }
+  return chosen->at(u2, u3);
+}
 
 // What openings and their images have in common as a LightFinder: rectangles, sampled by area.
 template <class Place>
@@ -108,7 +124,9 @@ class Openings : public AimedAtOpenings<Opening> {
   double depth() const { return depth_; }
 
   // See LightFinder.
-  void aim(const AimFrom& from, Aim& aim) const;
+  void aim(const AimFrom& from, Aim& aim) const {
+    aimAtFirst(places_.size(), from, aim, [](const Opening&, const V3d&) { return true; });
+  }
 
  private:
   double depth_;

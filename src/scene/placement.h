@@ -21,10 +21,20 @@ struct Placement {
 };
 
 // The composition of two placements; inner is nested in outer.
-Placement within(const Placement& outer, const Placement& inner);
+inline Placement within(const Placement& outer, const Placement& inner) {
+  return {inner.toOuter * outer.toOuter, outer.toInner * inner.toInner};
+}
 
 // The bounding box of a transformed box.
-Box3d placed(const Placement& placement, const Box3d& box);
+inline Box3d placed(const Placement& placement, const Box3d& box) {
+  Box3d result;
+  if (box.isEmpty()) return result;
+  for (int corner = 0; corner < 8; ++corner)
+    result.extendBy(
+        placement.toOuter.point(V3d(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                    corner & 4 ? box.max.z : box.min.z)));
+  return result;
+}
 
 // The placements of the instances that contain an object, outermost first; empty for an object in the scene
 // itself. Hits and rays store a path and copy it often. Most paths are empty, so entries beyond `count` are
