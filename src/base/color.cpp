@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cassert>
-#include <new>
 
 #include "base/spectral_sampling.h"
 

@@ -142,8 +142,8 @@ std::optional<DiffuseReflection> diffuseReflection(const Material& material) {
   using Answer = std::optional<DiffuseReflection>;
   return match(
       material,
-      [](const Opaque& m) -> Answer {
-        return DiffuseReflection{m.color, 1 - m.specularity};
+      [](const Opaque& m) {
+        return Answer({m.color, 1 - m.specularity});
       },
       [](const OneOf<Trans, Anisotropic, Ashikhmin, FunctionScatterer, BrtdFunction, WgmdFunction,
                      BsdfMaterial, Dielectric, Interface, Glass, Mirror, Prism, Antimatter, Mist> auto&)
@@ -177,14 +177,14 @@ std::optional<Excess> excessOf(const Material& material) {
   using Answer = std::optional<Excess>;
   return match(
       material,
-      [](const Opaque& m) -> Answer {
+      [](const Opaque& m) {
         return firstAbove({reflectance(m.color), {"specularity", m.specularity}});
       },
       [](const OneOf<Trans, Anisotropic, FunctionScatterer> auto& m) -> Answer {
         return firstAbove(
             {reflectance(m.color), {"specularity", m.specularity}, {"transmissivity", m.transmissivity}});
       },
-      [](const Ashikhmin& m) -> Answer {
+      [](const Ashikhmin& m) {
         return firstAbove({reflectance(m.diffuse), reflectance(m.specular)});
       },
       [](const OneOf<BrtdFunction, WgmdFunction, BsdfMaterial> auto& m) -> Answer {
