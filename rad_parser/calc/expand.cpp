@@ -312,17 +312,14 @@ class Expander {
       FrameGraph* frame = newFrame(fmt::format("{}:{}: {}()", d.file, d.line, d.name), count);
       Scope* body = newScope(&d, nullptr, *frame);
       for (size_t i = 0; i < inner.arguments.size(); ++i) {
-        Argument a;
-        a.symbol = functions[i];
+        Argument a{.symbol = functions[i]};
         if (a.symbol < 0) a.node = frame->graph.leaf(Op::parameter, static_cast<uint32_t>(i));
         body->arguments.push_back(a);
       }
       const Id result = compile(d.body, *body);
       frame->results.push_back(result);
     }
-    Node n;
-    n.op = Op::call;
-    n.a = index;
+    Node n{.op = Op::call, .a = index};
     for (size_t i = 0; i < d.parameters.size(); ++i) {
       const bool isValue = i < inner.arguments.size() && functions[i] < 0;
       // The frame does not read parameters whose arguments are missing or are functions.
@@ -363,9 +360,7 @@ class Expander {
     const Id condition = value(1);
     if (graph.isConstant(condition))
       return graph.operate(Op::finite, value(graph[condition].value > 0 ? 2 : 3));
-    Node n;
-    n.op = Op::ifPositive;
-    n.a = condition;
+    Node n{.op = Op::ifPositive, .a = condition};
     n.b = value(2);
     n.c = value(3);
     if (n.b == n.c) return graph.operate(Op::finite, n.b);
@@ -381,9 +376,7 @@ class Expander {
       return n == 0 ? graph.constant(static_cast<double>(given - 1))
                     : graph.operate(Op::finite, value(n + 1));
     }
-    Node n;
-    n.op = Op::select;
-    n.list = {index, graph.constant(static_cast<double>(given - 1))};
+    Node n{.op = Op::select, .list = {index, graph.constant(static_cast<double>(given - 1))}};
     for (size_t k = 2; k <= given; ++k) n.list.push_back(value(k));
     return graph.add(std::move(n));
   }
@@ -413,11 +406,8 @@ class Expander {
       }
       return graph.constant((*input_.reals)[static_cast<size_t>(x) - 1]);
     }
-    Node n;
-    n.op = Op::realArgument;
-    n.a = index;
-    n.b = realArgumentMessage(placeInPrimitive(tree, scope));
-    return graph.add(std::move(n));
+    return graph.add(
+        {.op = Op::realArgument, .a = index, .b = realArgumentMessage(placeInPrimitive(tree, scope))});
   }
 
   // Each place has one message, so that equal operations become one node.
@@ -431,8 +421,7 @@ class Expander {
     if (static_cast<int>(tree.args.size()) - 1 < f.arity) {
       return fail(tree, scope, fmt::format("{}(): too few arguments", f.name));
     }
-    Node n;
-    n.op = Op::host;
+    Node n{.op = Op::host};
     std::vector<HostFunction>& hosts = out_.hosts;
     const auto known = std::ranges::find_if(hosts, [&](const auto& h) { return h.name == f.name; });
     n.a = static_cast<uint32_t>(known - hosts.begin());

@@ -51,18 +51,9 @@ Id Graph::add(Node n) {
   return id;
 }
 
-Id Graph::constant(double value) {
-  Node n;
-  n.value = value;
-  return add(std::move(n));
-}
+Id Graph::constant(double value) { return add({.value = value}); }
 
-Id Graph::leaf(Op op, uint32_t a) {
-  Node n;
-  n.op = op;
-  n.a = a;
-  return add(std::move(n));
-}
+Id Graph::leaf(Op op, uint32_t a) { return add({.op = op, .a = a}); }
 
 Id Graph::operate(Op op, Id a, Id b, Id c) {
   const int operands = directOperands(op);
@@ -102,9 +93,7 @@ Id Graph::operate(Op op, Id a, Id b, Id c) {
       break;
     default: break;
   }
-  Node n;
-  n.op = op;
-  n.a = a;
+  Node n{.op = op, .a = a};
   if (operands > 1) n.b = b;
   if (operands > 2) n.c = c;
   return add(std::move(n));
@@ -128,11 +117,7 @@ Id Graph::raise(Id a, Id b) {
     if (e >= 2 && e <= 16 && e == std::floor(e)) return operate(Op::finite, product(a, static_cast<int>(e)));
   }
   if (isConstant(a, 1)) return a;
-  Node n;
-  n.op = Op::power;
-  n.a = a;
-  n.b = b;
-  return add(std::move(n));
+  return add({.op = Op::power, .a = a, .b = b});
 }
 
 // Sets the members of a node that depend on its operands.

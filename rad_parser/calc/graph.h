@@ -25,7 +25,7 @@ struct Node {
   double value = 0;  // constant
   // host, call: operands. select: its index; a constant, the number of choices, which is the value for
   // index 0; then the choices.
-  std::vector<Id> list;
+  std::vector<Id> list{};
 
   uint32_t cost = 0;  // of this operation and all its operands as if no node were shared; unit: one addition
   bool mayFail = false;   // whether evaluation may throw an error or recurse endlessly

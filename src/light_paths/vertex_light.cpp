@@ -8,6 +8,7 @@
 #include "light_paths/tuning.h"
 #include "rays/shared_highlights.h"
 #include "shade/scattering.h"
+#include "spots/light_particles.h"
 
 namespace rsphere {
 namespace {
@@ -326,10 +327,7 @@ Radiance VertexLight::ofVertex(const PlainPlace& at, size_t i) const {
 
 Radiance VertexLight::ofNear(const PlainPlace& at, const Indirect& how, Random& random,
                              Scratch& scratch) const {
-  const V3d direction = [&] {
-    const double u1 = random.uniform(), u2 = random.uniform();
-    return diffuseDirection(at.normal, u1, u2);
-  }();
+  const V3d direction = sentFrom(at.normal, random);
   const double u = random.uniform();
   const double farthest = u > 0 ? std::min(vertices_.nearLight().distanceOf(u), kFarAway) : kFarAway;
   if (!(farthest > prepared_.scene().samePlace)) return {};
@@ -363,10 +361,7 @@ Radiance VertexLight::ofMirrored(const PlainPlace& at, const Indirect& how, Rand
                                  Scratch& scratch) const {
   constexpr int kMostHits = 32;  // for mirrors that face each other
   V3d origin = at.point;
-  V3d direction = [&] {
-    const double u1 = random.uniform(), u2 = random.uniform();
-    return diffuseDirection(at.normal, u1, u2);
-  }();
+  V3d direction = sentFrom(at.normal, random);
   SurfaceId start = at.surface;
   Coefficient passed(1);
   bool isMirrored = false;
