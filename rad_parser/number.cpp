@@ -1,7 +1,6 @@
 #include "rad_parser/number.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <locale>

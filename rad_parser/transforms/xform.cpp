@@ -123,15 +123,8 @@ class ArgumentTransform {
         return true;
       case Type::glow: return moved(4, {}, {3});
       case Type::spotlight: return moved(7, {}, {}, {4});
-      case Type::dielectric:
-        need(5);
-        absorb(0);
-        return true;
-      case Type::interface:
-        need(8);
-        absorb(0);
-        absorb(4);
-        return true;
+      case Type::dielectric: return moved(5, {}, {}, {}, {0});
+      case Type::interface: return moved(8, {}, {}, {}, {0, 4});
       case Type::mist: mist(); return true;
       case Type::brighttext:
       case Type::colortext:
@@ -149,12 +142,15 @@ class ArgumentTransform {
     return false;
   }
 
-  // Transforms `count` real arguments, of which these are the first of points, of lengths and of directions.
-  bool moved(size_t count, Indices points, Indices lengths, Indices directions = {}) {
+  // Transforms `count` real arguments, of which these are the first of points, lengths, directions and
+  // transmissions.
+  bool moved(size_t count, Indices points, Indices lengths, Indices directions = {},
+             Indices transmissions = {}) {
     need(count);
     for (const size_t i : points) movePoint(i);
     for (const size_t i : lengths) scaleLength(i);
     for (const size_t i : directions) turnVector(i);
+    for (const size_t i : transmissions) absorb(i);
     return true;
   }
 

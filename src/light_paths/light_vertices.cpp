@@ -1,6 +1,5 @@
 #include "light_paths/light_vertices.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "light_paths/tuning.h"

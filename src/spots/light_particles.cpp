@@ -1,9 +1,7 @@
 #include "spots/light_particles.h"
 
-#include <cmath>
 #include <vector>
 
-#include "base/constants.h"
 #include "spots/tuning.h"
 
 namespace rsphere {
