@@ -13,6 +13,25 @@ namespace {
 // the sensor.
 constexpr double kSensorHeight = 1.1e-4;
 
+// Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result
+// equals, bit by bit, that of an rtrace compiled with fused multiply-add. If the length is 1 to six digits
+// (the precision of text), the vector is corrected to first order (error below 4e-13); otherwise it is
+// multiplied by a reciprocal. The bits matter where rounding decides on which side of a plane a hit lies, and
+// so, for example, which square of a checkered floor a function file sees.
+double makeUnit(const V3d& vector, V3d& unit) {
+  const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
+  if (square == 0) return 0;
+  if (!std::isfinite(square)) {
+    const double largest = std::max({std::fabs(vector.x), std::fabs(vector.y), std::fabs(vector.z)});
+    return largest * makeUnit(vector / largest, unit);
+  }
+  constexpr double kNearlyUnit = 1e-6;
+  const bool nearly = square <= 1 + kNearlyUnit && square >= 1 - kNearlyUnit;
+  const double length = nearly ? .5 + .5 * square : std::sqrt(square);
+  unit = vector * (nearly ? 2 - length : 1 / length);
+  return length;
+}
+
 }  // namespace
 
 // Calls write() for the color or, if there are contributors, for the part due to each.
@@ -176,29 +195,6 @@ void AnswerWriter::write(std::string& bytes, const GlareSource& source, const Gl
     }
   text.end();
 }
-
-namespace {
-
-// Normalizes a vector and returns its length. A vector of length 0 leaves `unit` unchanged. The result
-// equals, bit by bit, that of an rtrace compiled with fused multiply-add. If the length is 1 to six digits
-// (the precision of text), the vector is corrected to first order (error below 4e-13); otherwise it is
-// multiplied by a reciprocal. The bits matter where rounding decides on which side of a plane a hit lies, and
-// so, for example, which square of a checkered floor a function file sees.
-double makeUnit(const V3d& vector, V3d& unit) {
-  const double square = std::fma(vector.z, vector.z, std::fma(vector.x, vector.x, vector.y * vector.y));
-  if (square == 0) return 0;
-  if (!std::isfinite(square)) {
-    const double largest = std::max({std::fabs(vector.x), std::fabs(vector.y), std::fabs(vector.z)});
-    return largest * makeUnit(vector / largest, unit);
-  }
-  constexpr double kNearlyUnit = 1e-6;
-  const bool nearly = square <= 1 + kNearlyUnit && square >= 1 - kNearlyUnit;
-  const double length = nearly ? .5 + .5 * square : std::sqrt(square);
-  unit = vector * (nearly ? 2 - length : 1 / length);
-  return length;
-}
-
-}  // namespace
 
 InputRay inputRay(const double* numbers, IrradianceAt irradiance, double samePlace) {
   InputRay ray;

@@ -405,44 +405,6 @@ void checkTogether(Options& options, bool mostGiven) {
                      fmt::format("{} is less than -Sn {}", sphere.mostDirections, sphere.baseDirections));
 }
 
-}  // namespace
-
-void commandLineError(std::string_view at, std::string_view why) {
-  throw rad::Error(fmt::format("command line error at '{}': {}; see -help", rad::printable(at), why));
-}
-
-double realWord(const OptionEntry& entry, const std::string& word) {
-  const auto x = rad::parseReal(word);
-  if (!x) notReal(entry.name, word, rangeText(entry.range));
-  checkRange(entry, *x);
-  return *x;
-}
-
-void notReal(std::string_view option, std::string_view word, std::string_view range) {
-  std::string hint;
-  if (word.ends_with('%'))
-    if (const auto x = rad::parseReal(word.substr(0, word.size() - 1))) hint = percent(*x);
-  if (word.find(',') != word.npos) hint = ": use a decimal point";
-  commandLineError(option, fmt::format("\"{}\" is not a number{}{}", rad::printable(word), range, hint));
-}
-
-void notInteger(std::string_view option, std::string_view word, std::string_view range) {
-  const auto x = rad::parseReal(word);
-  const bool written = x && *x == std::floor(*x);  // 1e6
-  commandLineError(option, fmt::format("\"{}\" is not a whole number{}{}", rad::printable(word),
-                                       written ? " in digits" : "", range));
-}
-
-std::optional<bool> switched(std::string_view suffix, bool before) {
-  if (suffix.empty()) return !before;
-  if (suffix.size() != 1) return std::nullopt;
-  if (std::string_view("+1yYtT").find(suffix[0]) != std::string_view::npos) return true;
-  if (std::string_view("-0nNfF").find(suffix[0]) != std::string_view::npos) return false;
-  return std::nullopt;
-}
-
-namespace {
-
 // The options of a command line, and the mode that they select.
 struct Given {
   std::vector<UsedOption> uses;
@@ -550,6 +512,40 @@ RayOptions rayOptionsOfPictures(const Given& given, const Options& options) {
 }
 
 }  // namespace
+
+void commandLineError(std::string_view at, std::string_view why) {
+  throw rad::Error(fmt::format("command line error at '{}': {}; see -help", rad::printable(at), why));
+}
+
+double realWord(const OptionEntry& entry, const std::string& word) {
+  const auto x = rad::parseReal(word);
+  if (!x) notReal(entry.name, word, rangeText(entry.range));
+  checkRange(entry, *x);
+  return *x;
+}
+
+void notReal(std::string_view option, std::string_view word, std::string_view range) {
+  std::string hint;
+  if (word.ends_with('%'))
+    if (const auto x = rad::parseReal(word.substr(0, word.size() - 1))) hint = percent(*x);
+  if (word.find(',') != word.npos) hint = ": use a decimal point";
+  commandLineError(option, fmt::format("\"{}\" is not a number{}{}", rad::printable(word), range, hint));
+}
+
+void notInteger(std::string_view option, std::string_view word, std::string_view range) {
+  const auto x = rad::parseReal(word);
+  const bool written = x && *x == std::floor(*x);  // 1e6
+  commandLineError(option, fmt::format("\"{}\" is not a whole number{}{}", rad::printable(word),
+                                       written ? " in digits" : "", range));
+}
+
+std::optional<bool> switched(std::string_view suffix, bool before) {
+  if (suffix.empty()) return !before;
+  if (suffix.size() != 1) return std::nullopt;
+  if (std::string_view("+1yYtT").find(suffix[0]) != std::string_view::npos) return true;
+  if (std::string_view("-0nNfF").find(suffix[0]) != std::string_view::npos) return false;
+  return std::nullopt;
+}
 
 std::vector<UsedOption> parseCompanion(std::span<const std::string> commandLine, const Companion& companion,
                                        Options& options) {

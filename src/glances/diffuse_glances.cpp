@@ -52,6 +52,16 @@ size_t pathsFor(const SphereOptions& options, bool daylit) {
       std::min(paths, static_cast<double>(tuning::DiffuseGlances::kMost / poolsFor(options))));
 }
 
+SharedError sharedError(const VertexLight::Record& record) {
+  return {std::vector(record.batches.begin(), record.batches.end()),
+          {record.squares, record.squaredBrightness}};
+}
+
+// Black smooth metal acts like a mirror without virtual sources: it shows the light of portals.
+bool isMirror(const PlainSurfaces& surfaces, const Sight& sight) {
+  return sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror;
+}
+
 }  // namespace
 
 // Chooses the light vertices that are connected to a point by joins. The probability of a vertex is
@@ -180,15 +190,6 @@ std::unique_ptr<const DiffuseGlances> DiffuseGlances::makeDaylit(const SphereTra
     return PathTracer(prepared, none, aims);
   });
 }
-
-namespace {
-
-SharedError sharedError(const VertexLight::Record& record) {
-  return {std::vector(record.batches.begin(), record.batches.end()),
-          {record.squares, record.squaredBrightness}};
-}
-
-}  // namespace
 
 DiffuseGlances::DiffuseGlances(const PreparedScene& prepared, PlainSurfaces surfaces,
                                const SphereOptions& options, const BaseSet& base, LightPools::Tracers tracers)
@@ -333,15 +334,6 @@ Radiance DiffuseGlances::glance(const V3d& point, const V3d& direction, Glancing
                                   by.record, color * by.cell, by.outdoors};
   return radiance + color * by.both.indirectAt(at, how, by.random, by.scratch);
 }
-
-namespace {
-
-// Black smooth metal acts like a mirror without virtual sources: it shows the light of portals.
-bool isMirror(const PlainSurfaces& surfaces, const Sight& sight) {
-  return sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror;
-}
-
-}  // namespace
 
 bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces) {
   Random random(seedOf(std::array{point.x, point.y, point.z}));

@@ -44,25 +44,6 @@ std::string filteredRows(const Raster& raster) {
   return rows;
 }
 
-}  // namespace
-
-std::string pngPicture(const Raster& raster) {
-  const std::string rows = filteredRows(raster);
-  uLongf size = compressBound(rows.size());
-  std::string compressed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
-                reinterpret_cast<const Bytef*>(rows.data()), rows.size(), Z_BEST_COMPRESSION) != Z_OK)
-    throw std::bad_alloc();
-  compressed.resize(size);
-  const std::string header = bigEndian(static_cast<uint32_t>(raster.width)) +
-                             bigEndian(static_cast<uint32_t>(raster.height)) +
-                             std::string("\10\2\0\0\0", 5);  // 8 bits of red, green and blue
-  return "\211PNG\r\n\32\n" + chunk("IHDR", header) + chunk("sRGB", std::string_view("\0", 1)) +
-         chunk("IDAT", compressed) + chunk("IEND", "");
-}
-
-namespace {
-
 // The format's run-length code: a count up to 128 is followed by that number of bytes; a larger count by a
 // single byte, which is repeated count - 128 times.
 constexpr size_t kMostLiteral = 128, kLongestRun = 127;
@@ -93,6 +74,21 @@ void appendRuns(std::string& out, std::span<const uint8_t> bytes) {
 }
 
 }  // namespace
+
+std::string pngPicture(const Raster& raster) {
+  const std::string rows = filteredRows(raster);
+  uLongf size = compressBound(rows.size());
+  std::string compressed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
+                reinterpret_cast<const Bytef*>(rows.data()), rows.size(), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();
+  compressed.resize(size);
+  const std::string header = bigEndian(static_cast<uint32_t>(raster.width)) +
+                             bigEndian(static_cast<uint32_t>(raster.height)) +
+                             std::string("\10\2\0\0\0", 5);  // 8 bits of red, green and blue
+  return "\211PNG\r\n\32\n" + chunk("IHDR", header) + chunk("sRGB", std::string_view("\0", 1)) +
+         chunk("IDAT", compressed) + chunk("IEND", "");
+}
 
 std::string radiancePicture(const Raster& raster, std::string_view header) {
   std::string out(header);

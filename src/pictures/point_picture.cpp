@@ -20,6 +20,12 @@ using std::numbers::pi;
 // The angle from +y to the heading, in radians; 0 exactly where they are equal.
 double turnOf(double heading) { return (heading - 90) * (pi / 180); }
 
+// Inserts %d before the suffix of the pattern.
+std::string withNumber(std::string pattern) {
+  const size_t folder = pattern.rfind('/') + 1, dot = pattern.rfind('.');
+  return pattern.insert(dot == std::string::npos || dot < folder ? pattern.size() : dot, "%d");
+}
+
 }  // namespace
 
 PixelMap::PixelMap(Projection projection, const PictureForm& form)
@@ -145,16 +151,6 @@ void toScreen(Raster& raster, const ToneCurve& curve) {
     setValue(raster, pixel, color);
   }
 }
-
-namespace {
-
-// Inserts %d before the suffix of the pattern.
-std::string withNumber(std::string pattern) {
-  const size_t folder = pattern.rfind('/') + 1, dot = pattern.rfind('.');
-  return pattern.insert(dot == std::string::npos || dot < folder ? pattern.size() : dot, "%d");
-}
-
-}  // namespace
 
 std::string pictureName(const std::string& pattern, uint64_t record) {
   std::string name;

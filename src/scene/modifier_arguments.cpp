@@ -36,6 +36,18 @@ bool allAre(const Words& words, std::string_view word) {
   return std::ranges::all_of(words, [&](std::string_view w) { return w == word; });
 }
 
+FunctionScatterer readScatterer(const PrimitiveArguments& a, size_t strings) {
+  const bool trans = a.type() == Type::transfunc || a.type() == Type::transdata;
+  a.needAtLeast(strings, trans ? 6 : 4);
+  const auto r = a.reals();
+  FunctionScatterer values{a.color(0), r[3], a.type() == Type::metfunc || a.type() == Type::metdata};
+  if (trans) {
+    values.transmissivity = r[4];
+    values.transmittedSpecular = r[5];
+  }
+  return values;
+}
+
 }  // namespace
 
 // ---- patterns, textures and mixtures
@@ -212,22 +224,6 @@ AshikhminArguments readAshikhmin(const PrimitiveArguments& a) {
   if (!(r[6] > -1 && r[7] > -1)) a.fail("specular powers must be above -1");
   return {{a.color(0), a.color(3), r[6], r[7]}, {a.strings(0, 3), readFunctionFile(a, 3)}};
 }
-
-namespace {
-
-FunctionScatterer readScatterer(const PrimitiveArguments& a, size_t strings) {
-  const bool trans = a.type() == Type::transfunc || a.type() == Type::transdata;
-  a.needAtLeast(strings, trans ? 6 : 4);
-  const auto r = a.reals();
-  FunctionScatterer values{a.color(0), r[3], a.type() == Type::metfunc || a.type() == Type::metdata};
-  if (trans) {
-    values.transmissivity = r[4];
-    values.transmittedSpecular = r[5];
-  }
-  return values;
-}
-
-}  // namespace
 
 FunctionScattererArguments readFunctionScatterer(const PrimitiveArguments& a) {
   const FunctionScatterer values = readScatterer(a, 2);

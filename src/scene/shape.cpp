@@ -38,6 +38,41 @@ double largestCoordinate(const Box3d& box) {
   return largest;
 }
 
+// Threshold of the cross product below which a point is treated as lying on an edge. size: of the coordinates
+// from which the product is computed.
+double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
+
+// inside() for a point that may lie on an edge or on its extension.
+bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, double y, double tolerance) {
+  bool odd = false;
+  const V3d* from = &vertices.back();
+  for (const V3d& to : vertices) {
+    const double y0 = (*from)[yi] - y, y1 = to[yi] - y;
+    const double x0 = (*from)[xi] - x, x1 = to[xi] - x;
+    from = &to;
+    const bool crosses = (y0 > 0) != (y1 > 0);
+    if (!crosses && std::min(std::abs(y0), std::abs(y1)) > tolerance) continue;
+    if (std::min(x0, x1) > tolerance) {
+      odd ^= crosses;
+      continue;
+    }
+    if (std::max(x0, x1) < -tolerance) continue;
+    // The point is in the bounding box of the edge. It is either on the edge or clearly on one side of it.
+    const double cross = x0 * y1 - x1 * y0;
+    const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
+    if (std::abs(cross) <= onEdge(tolerance, size)) return true;
+    odd ^= crosses && (cross > 0) == (y1 > y0);
+  }
+  return odd;
+}
+
+// Half the size of the bounding box of a disk with radius 1 and this normal.
+V3d diskExtent(const V3d& normal) {
+  V3d extent;
+  for (int i = 0; i < 3; ++i) extent[i] = std::sqrt(std::max(0., 1 - normal[i] * normal[i]));
+  return extent;
+}
+
 }  // namespace
 
 double samePlaceIn(const Box3d& box) {
@@ -90,38 +125,6 @@ double thicknessOf(const Polygon& polygon, std::span<const V3d> all) {
     thickness = std::max(thickness, std::abs(polygon.normal.dot(v - vertices[0]) - mean));
   return thickness;
 }
-
-namespace {
-
-// Threshold of the cross product below which a point is treated as lying on an edge. size: of the coordinates
-// from which the product is computed.
-double onEdge(double tolerance, double size) { return (tolerance + kRounding * size) * size; }
-
-// inside() for a point that may lie on an edge or on its extension.
-bool insideClosely(std::span<const V3d> vertices, int xi, int yi, double x, double y, double tolerance) {
-  bool odd = false;
-  const V3d* from = &vertices.back();
-  for (const V3d& to : vertices) {
-    const double y0 = (*from)[yi] - y, y1 = to[yi] - y;
-    const double x0 = (*from)[xi] - x, x1 = to[xi] - x;
-    from = &to;
-    const bool crosses = (y0 > 0) != (y1 > 0);
-    if (!crosses && std::min(std::abs(y0), std::abs(y1)) > tolerance) continue;
-    if (std::min(x0, x1) > tolerance) {
-      odd ^= crosses;
-      continue;
-    }
-    if (std::max(x0, x1) < -tolerance) continue;
-    // The point is in the bounding box of the edge. It is either on the edge or clearly on one side of it.
-    const double cross = x0 * y1 - x1 * y0;
-    const double size = std::abs(x0) + std::abs(x1) + std::abs(y0) + std::abs(y1);
-    if (std::abs(cross) <= onEdge(tolerance, size)) return true;
-    odd ^= crosses && (cross > 0) == (y1 > y0);
-  }
-  return odd;
-}
-
-}  // namespace
 
 // Contains no branches that depend on the position of the point, because half of them would be mispredicted.
 bool inside(const Polygon& polygon, std::span<const V3d> all, const V3d& point, double tolerance) {
@@ -265,15 +268,6 @@ Box3d bounds(const Sphere& sphere) {
   const V3d r(sphere.radius);
   return Box3d(sphere.center - r, sphere.center + r);
 }
-
-namespace {
-// Half the size of the bounding box of a disk with radius 1 and this normal.
-V3d diskExtent(const V3d& normal) {
-  V3d extent;
-  for (int i = 0; i < 3; ++i) extent[i] = std::sqrt(std::max(0., 1 - normal[i] * normal[i]));
-  return extent;
-}
-}  // namespace
 
 Box3d bounds(const Cone& cone) {
   const V3d extent = diskExtent(cone.axis);

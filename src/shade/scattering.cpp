@@ -109,6 +109,47 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
   return s;
 }
 
+// The reflected lobe towards a source, per sr and share, without the cosine factor.
+double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSource, double alpha2) {
+  const V3d half = toSource - at.direction;
+  const double along = half.dot(s.normal);
+  const double along2 = along * along, length2 = half.length2();
+  const double tangent2 = (length2 - along2) / along2;
+  return std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
+}
+
+// The two branches of directCoefficient(), for sources in front of the surface and behind it. enters: the
+// fraction of the light that is not reflected specularly, and is therefore scattered diffusely.
+Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
+                                 double cosine, double enters, double solidAngle, double sourceJitter) {
+  Coefficient sum(s.diffuseReflection * (enters * cosine * solidAngle * kPerPi));
+  if (maxChannel(s.specularReflection) > 0) {
+    double alpha2 = s.alpha2;
+    if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
+    const double lobe = reflectedLobe(s, at, toSource, alpha2);
+    if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
+  }
+  return sum;
+}
+
+Coefficient transmittedCoefficient(const Scattering& s, const V3d& toSource, double cosine, double enters,
+                                   double solidAngle) {
+  Coefficient sum(s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi));
+  if (maxChannel(s.specularTransmission) > 0) {
+    const double alpha2 = s.alpha2 + solidAngle / kPi;
+    const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
+    if (lobe > kNegligible)
+      sum.color.addScaled(s.specularTransmission, lobe * solidAngle * std::sqrt(-cosine / s.cosine));
+  }
+  return sum;
+}
+
+// Distance of a lobe's sample from its middle, in the tangent plane: inverts exp(-(d/alpha)^2).
+double lobeRadius(double alpha2, double spread, double u) {
+  const double v = 1 - std::min(spread, 1.) * u;
+  return v > kNegligible ? std::sqrt(-alpha2 * std::log(v)) : 1;
+}
+
 }  // namespace
 
 V3d diffuseDirection(const V3d& normal, double u1, double u2) {
@@ -253,43 +294,6 @@ Scattering scatter(const Mirror& material, const Interaction& at) {
   return s;
 }
 
-namespace {
-// The reflected lobe towards a source, per sr and share, without the cosine factor.
-double reflectedLobe(const Scattering& s, const Interaction& at, const V3d& toSource, double alpha2) {
-  const V3d half = toSource - at.direction;
-  const double along = half.dot(s.normal);
-  const double along2 = along * along, length2 = half.length2();
-  const double tangent2 = (length2 - along2) / along2;
-  return std::exp(-tangent2 / alpha2) * length2 / (kPi * along2 * along2 * alpha2);
-}
-
-// The two branches of directCoefficient(), for sources in front of the surface and behind it. enters: the
-// fraction of the light that is not reflected specularly, and is therefore scattered diffusely.
-Coefficient reflectedCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
-                                 double cosine, double enters, double solidAngle, double sourceJitter) {
-  Coefficient sum(s.diffuseReflection * (enters * cosine * solidAngle * kPerPi));
-  if (maxChannel(s.specularReflection) > 0) {
-    double alpha2 = s.alpha2;
-    if (s.widenReflection) alpha2 += (1 - sourceJitter) * solidAngle * .25 / kPi;
-    const double lobe = reflectedLobe(s, at, toSource, alpha2);
-    if (lobe > kNegligible) sum.color.addScaled(s.specularReflection, lobe * cosine * solidAngle);
-  }
-  return sum;
-}
-
-Coefficient transmittedCoefficient(const Scattering& s, const V3d& toSource, double cosine, double enters,
-                                   double solidAngle) {
-  Coefficient sum(s.diffuseTransmission * (enters * -cosine * solidAngle * kPerPi));
-  if (maxChannel(s.specularTransmission) > 0) {
-    const double alpha2 = s.alpha2 + solidAngle / kPi;
-    const double lobe = std::exp((2 * s.transmitted.dot(toSource) - 2) / alpha2) / (kPi * alpha2);
-    if (lobe > kNegligible)
-      sum.color.addScaled(s.specularTransmission, lobe * solidAngle * std::sqrt(-cosine / s.cosine));
-  }
-  return sum;
-}
-}  // namespace
-
 Coefficient directCoefficient(const Scattering& s, const Interaction& at, const V3d& toSource,
                               double solidAngle, double sourceJitter) {
   const double cosine = s.normal.dot(toSource);
@@ -299,14 +303,6 @@ Coefficient directCoefficient(const Scattering& s, const Interaction& at, const 
   if (cosine < -kNegligible) return transmittedCoefficient(s, toSource, cosine, enters, solidAngle);
   return {};
 }
-
-namespace {
-// Distance of a lobe's sample from its middle, in the tangent plane: inverts exp(-(d/alpha)^2).
-double lobeRadius(double alpha2, double spread, double u) {
-  const double v = 1 - std::min(spread, 1.) * u;
-  return v > kNegligible ? std::sqrt(-alpha2 * std::log(v)) : 1;
-}
-}  // namespace
 
 double sampleReflection(const Scattering& s, const Interaction& at, double spread, double u1, double u2,
                         V3d& direction) {

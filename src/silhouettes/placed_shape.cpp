@@ -34,14 +34,6 @@ SurfacePoint placed(const SurfacePoint& inner, const Placement& placement) {
           inner.clearance * placement.toOuter.scale};
 }
 
-}  // namespace
-
-Sphere placed(const Sphere& ball, const Placement& placement) {
-  return {placement.toOuter.point(ball.center), ball.radius * placement.toOuter.scale, ball.inward};
-}
-
-namespace {
-
 Ring placed(const Ring& ring, const Placement& placement) {
   const double scale = placement.toOuter.scale;
   return {placement.toOuter.point(ring.center), placement.directionToOuter(ring.normal), ring.inner * scale,
@@ -70,6 +62,10 @@ PlacedShape placed(const Polygon& polygon, std::span<const V3d> vertices, const 
 }
 
 }  // namespace
+
+Sphere placed(const Sphere& ball, const Placement& placement) {
+  return {placement.toOuter.point(ball.center), ball.radius * placement.toOuter.scale, ball.inward};
+}
 
 PlacedShape placed(ShapeRef shape, std::span<const V3d> vertices, const Placement& placement) {
   return match(

@@ -44,25 +44,6 @@ void chooseFitted(std::vector<Target>& targets, double baseDensity) {
   for (Target& target : targets) target.hasOwnEdge = target.fitted || target.density > baseDensity;
 }
 
-}  // namespace
-
-Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
-  for (uint32_t i = 0; i < targets_.size(); ++i) index_.add(i, targets_[i].silhouette);
-}
-
-Targets::Region Targets::regionAt(const V3d& direction) const {
-  Region region;
-  for (const uint32_t i : index_.near(direction)) {
-    if (!targets_[i].silhouette.contains(direction)) continue;
-    region.density += targets_[i].density;
-    if (targets_[i].hasOwnEdge) region.id = mixBits(region.id + i + 1);
-    if (targets_[i].fitted && region.fitted == 0) region.fitted = i + 1;
-  }
-  return region;
-}
-
-namespace {
-
 // The least number of directions to an opening whose light, unoccluded, is a part of all light at the point.
 double leastNumber(double light, double all) {
   if (!(light > tuning::Targets::kLeastOpening * all)) return 0;
@@ -88,6 +69,21 @@ void reduceTo(double most, std::vector<Target>& targets) {
 }
 
 }  // namespace
+
+Targets::Targets(std::vector<Target> targets) : targets_(std::move(targets)) {
+  for (uint32_t i = 0; i < targets_.size(); ++i) index_.add(i, targets_[i].silhouette);
+}
+
+Targets::Region Targets::regionAt(const V3d& direction) const {
+  Region region;
+  for (const uint32_t i : index_.near(direction)) {
+    if (!targets_[i].silhouette.contains(direction)) continue;
+    region.density += targets_[i].density;
+    if (targets_[i].hasOwnEdge) region.id = mixBits(region.id + i + 1);
+    if (targets_[i].fitted && region.fitted == 0) region.fitted = i + 1;
+  }
+  return region;
+}
 
 TargetChoice::TargetChoice(const SphereTracing& tracing, std::span<const SpecialObject> objects,
                            const SeenSources& sources, double densityFactor)

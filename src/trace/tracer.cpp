@@ -131,6 +131,19 @@ float roundDown(double x) {
   return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }
 
+// Embree's settings, by the total number of primitives.
+const char* deviceFor(size_t primitives) {
+  // Embree's cache for subdivision surfaces (128 MB of address space) is not needed. In small scenes, threads
+  // and huge pages are disabled: starting threads takes longer than building the tree, and Embree reads
+  // /proc/meminfo to find out about huge pages.
+  if (primitives < 20000) return "tessellation_cache_size=0,threads=1,user_threads=1,hugepages=0";
+  // Compared with leaves of one primitive, leaves of up to four save 27 bytes a primitive. In scenes larger
+  // than the processor's caches they take no more time: more primitives are tested, but less of the tree is
+  // read. In scenes of a few thousand polygons they take 4 to 10% more time.
+  if (primitives < 200000) return "tessellation_cache_size=0";
+  return "tessellation_cache_size=0,object_accel_max_leaf_size=4";
+}
+
 }  // namespace
 
 // Surfaces that are traced together, and Embree's tree over them.
@@ -580,23 +593,6 @@ struct Tracer::Embree {
     if (device) rtcReleaseDevice(device);
   }
 };
-
-namespace {
-
-// Embree's settings, by the total number of primitives.
-const char* deviceFor(size_t primitives) {
-  // Embree's cache for subdivision surfaces (128 MB of address space) is not needed. In small scenes, threads
-  // and huge pages are disabled: starting threads takes longer than building the tree, and Embree reads
-  // /proc/meminfo to find out about huge pages.
-  if (primitives < 20000) return "tessellation_cache_size=0,threads=1,user_threads=1,hugepages=0";
-  // Compared with leaves of one primitive, leaves of up to four save 27 bytes a primitive. In scenes larger
-  // than the processor's caches they take no more time: more primitives are tested, but less of the tree is
-  // read. In scenes of a few thousand polygons they take 4 to 10% more time.
-  if (primitives < 200000) return "tessellation_cache_size=0";
-  return "tessellation_cache_size=0,object_accel_max_leaf_size=4";
-}
-
-}  // namespace
 
 Tracer::Tracer(const Scene& scene, bool backFacesVisible)
     : scene_(scene), embree_(std::make_unique<Embree>()) {
