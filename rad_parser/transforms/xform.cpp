@@ -76,8 +76,8 @@ std::string prefixSources(std::string_view path, const std::string& prefix) {
   return result;
 }
 
-// Whether the function file, data, picture, octree or mesh of this type is transformed, by xform options after
-// the string arguments.
+// Whether the function file, data, picture, octree or mesh of this type is transformed, by xform options
+// after the string arguments.
 bool hasTransform(Type type) {
   static_assert(kTypes == 59, "Does a new type have a transform?");
   const auto isWithin = [type](Type first, Type last) { return first <= type && type <= last; };

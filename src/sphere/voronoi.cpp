@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include "sphere/delaunay.h"
 #include "sphere/kites.h"
