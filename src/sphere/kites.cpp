@@ -114,10 +114,6 @@ struct LongTriangle {
   }
 };
 
-}  // namespace
-
-namespace {
-
 // Calls use(i, kites, wide) for each triangle which[i].
 template <class Use>
 void forKites(const Delaunay& delaunay, std::span<const std::uint32_t> which, Use&& use) {
