@@ -37,15 +37,49 @@ void setSquare(PlaneLight& light) {
   std::tie(light.u, light.v) = frame(light.normal, std::sqrt(light.area) / 2);
 }
 
-PlaneLight::Fan fanOf(std::span<const V3d> v) {
-  PlaneLight::Fan fan{{}, {v.begin(), v.end()}};
-  double sum = 0;
-  for (size_t i = 2; i < v.size(); ++i) {
-    sum += (v[i - 1] - v[0]).cross(v[i] - v[0]).length() / 2;
-    fan.areas.push_back(sum);
+void add(PlaneLight::Triangles& triangles, const V3d& a, const V3d& b, const V3d& c) {
+  triangles.areas.push_back((triangles.areas.empty() ? 0 : triangles.areas.back()) +
+                            (b - a).cross(c - a).length() / 2);
+  triangles.vertices.insert(triangles.vertices.end(), {a, b, c});
+}
+
+// The triangles of a convex polygon around its first vertex; otherwise the halves of trapezoids between the
+// heights of its vertices, which cover what rays meet: by odd crossings, with holes that are connected by
+// seams.
+PlaneLight::Triangles trianglesOf(std::span<const V3d> v, const V3d& normal) {
+  PlaneLight::Triangles triangles;
+  if (isConvex(v, normal)) {
+    for (size_t i = 2; i < v.size(); ++i) add(triangles, v[0], v[i - 1], v[i]);
+    return triangles;
   }
-  for (double& a : fan.areas) a /= sum;
-  return fan;
+  const auto [right, up] = frame(normal);
+  std::vector<double> height;
+  for (const V3d& p : v) height.push_back(p.dot(up));
+  std::vector<double> levels = height;
+  std::ranges::sort(levels);
+  const double thin = 1e-9 * (levels.back() - levels.front());
+  for (size_t l = 1; l < levels.size(); ++l) {
+    const double low = levels[l - 1], high = levels[l];
+    if (high - low <= thin) continue;
+    std::vector<std::pair<V3d, V3d>> sides;  // what edges have between the heights: lower and upper end
+    for (size_t i = 0; i < v.size(); ++i) {
+      const size_t next = (i + 1) % v.size();
+      if (std::min(height[i], height[next]) > low || std::max(height[i], height[next]) < high) continue;
+      const V3d along = (v[next] - v[i]) / (height[next] - height[i]);
+      sides.emplace_back(v[i] + (low - height[i]) * along, v[i] + (high - height[i]) * along);
+    }
+    std::ranges::sort(sides, {}, [&, r = right](const auto& s) { return (s.first + s.second).dot(r); });
+    for (size_t i = 1; i < sides.size(); i += 2) {
+      add(triangles, sides[i - 1].first, sides[i].first, sides[i].second);
+      add(triangles, sides[i - 1].first, sides[i].second, sides[i - 1].second);
+    }
+  }
+  return triangles;
+}
+
+// Whether triangles cover the polygon: not if it crosses itself.
+bool cover(const PlaneLight::Triangles& triangles, double area) {
+  return !triangles.areas.empty() && std::abs(triangles.areas.back() - area) <= 1e-6 * area;
 }
 
 LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
@@ -60,8 +94,16 @@ LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
     light.v = (v[3] - v[0]) / 2;
   } else {
     setSquare(light);
-    if (isConvex(v, polygon.normal)) {
-      light.map = fanOf(v);
+    const bool convex = isConvex(v, polygon.normal);
+    if (convex || scene.importance) {
+      PlaneLight::Triangles triangles = trianglesOf(v, polygon.normal);
+      for (double& a : triangles.areas) a /= triangles.areas.back();
+      if (!convex) {  // the mean of its vertices may lie outside
+        source.center = triangles.at(triangles.triangleAt(.5), .5, .5);
+        source.radius = 0;
+        for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
+      }
+      light.map = std::move(triangles);
     } else {  // some samples miss the polygon
       light.map = PlaneLight::Square{};
       source.hitsWhereAimed = false;
@@ -127,8 +169,9 @@ bool canBeAimedAt(ShapeRef shape, const Scene& scene) {
   return match(
       shape,
       [&](const Polygon& polygon) {
-        return isConvex(std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices),
-                        polygon.normal);
+        const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
+        return isConvex(v, polygon.normal) ||
+               cover(trianglesOf(v, polygon.normal), areaOf(polygon, scene.vertices));
       },
       [](const Ring& ring) { return ring.inner == 0; }, [](const Sphere& sphere) { return !sphere.inward; },
       [](const Cone& cone) { return !cone.inward && cone.radius0 == cone.radius1; },

@@ -1,5 +1,7 @@
 #pragma once
 // Light sources as next-event estimation (RADIANCE's direct calculation) samples them.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -15,22 +17,34 @@ namespace rsphere {
 struct PlaneLight {
   // To center + (2s-1) u + (2t-1) v.
   struct Parallelogram {};
-  // For a concave polygon: to a square of equal area that lies partly outside the polygon, by the formula of
-  // Parallelogram.
+  // For a concave polygon that shines: to a square of equal area that lies partly outside the polygon, by the
+  // formula of Parallelogram, as in rtrace.
   struct Square {};
   // To the disk with radii u and v, preserving area.
   struct Disk {};
-  // To a convex polygon that is divided into triangles around its first vertex, preserving area.
-  struct Fan {
+  // To a polygon that is divided into triangles, preserving area: around its first vertex if it is convex.
+  // Only importance goals may be concave.
+  struct Triangles {
     std::vector<double> areas;  // cumulative fractions of the polygon's area
-    std::vector<V3d> vertices;
+    std::vector<V3d> vertices;  // three of each triangle
+
+    // A point of triangle i. s: square of the share of the way from its first vertex to the opposite side.
+    V3d at(size_t i, double s, double t) const {
+      const double root = std::sqrt(s);
+      return (1 - root) * vertices[3 * i] + root * (1 - t) * vertices[3 * i + 1] +
+             root * t * vertices[3 * i + 2];
+    }
+    // The triangle at this fraction of the area.
+    size_t triangleAt(double s) const {
+      return static_cast<size_t>(std::upper_bound(areas.begin(), areas.end() - 1, s) - areas.begin());
+    }
   };
 
   V3d normal{0, 0, 0};  // unit
   double area = 0;
-  V3d u{0, 0, 0}, v{0, 0, 0};       // of Square and Fan: half the sides of a square of equal area
+  V3d u{0, 0, 0}, v{0, 0, 0};       // of Square and Triangles: half the sides of a square of equal area
   double extentU = 0, extentV = 0;  // half the source's size along u and v, which determines how it is split
-  std::variant<Parallelogram, Square, Disk, Fan> map{};
+  std::variant<Parallelogram, Square, Disk, Triangles> map{};
 };
 // A sphere. Samples are drawn in the cone of directions that it subtends.
 struct BallLight {};

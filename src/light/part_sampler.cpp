@@ -43,13 +43,11 @@ struct SourcePart {
   double s0 = 0, s1 = 1, t0 = 0, t1 = 1;
 };
 
-V3d onFan(const V3d& center, const PlaneLight::Fan& fan, double s, double t) {
+V3d onTriangles(const V3d& center, const PlaneLight::Triangles& triangles, double s, double t) {
   if (2 * s - 1 == 0 && 2 * t - 1 == 0) return center;
-  const auto triangle = std::upper_bound(fan.areas.begin(), fan.areas.end() - 1, s);
-  const size_t i = static_cast<size_t>(triangle - fan.areas.begin());
-  const double before = i ? fan.areas[i - 1] : 0;
-  const double root = std::sqrt(std::clamp((s - before) / (fan.areas[i] - before), 0., 1.));
-  return (1 - root) * fan.vertices[0] + root * (1 - t) * fan.vertices[i + 1] + root * t * fan.vertices[i + 2];
+  const size_t i = triangles.triangleAt(s);
+  const double before = i ? triangles.areas[i - 1] : 0;
+  return triangles.at(i, std::clamp((s - before) / (triangles.areas[i] - before), 0., 1.), t);
 }
 
 V3d onParallelogram(const V3d& center, const PlaneLight& plane, double s, double t) {
@@ -95,15 +93,13 @@ void eachTriangle(const V3d& center, const PlaneLight& plane, const SourcePart& 
           useBoth(at(part.s0, i, 1), at(part.s1, i, outwards), at(part.s1, i + 1, outwards),
                   at(part.s0, i + 1, 1));
       },
-      [&](const PlaneLight::Fan& fan) {
-        for (size_t i = 0; i < fan.areas.size(); ++i) {
-          const double before = i ? fan.areas[i - 1] : 0, after = fan.areas[i];
+      [&](const PlaneLight::Triangles& triangles) {
+        for (size_t i = 0; i < triangles.areas.size(); ++i) {
+          const double before = i ? triangles.areas[i - 1] : 0, after = triangles.areas[i];
           const double from = std::max(part.s0, before), to = std::min(part.s1, after);
           if (!(from < to)) continue;
           const auto at = [&](double s, double t) {
-            const double root = std::sqrt((s - before) / (after - before));
-            return (1 - root) * fan.vertices[0] + root * (1 - t) * fan.vertices[i + 1] +
-                   root * t * fan.vertices[i + 2];
+            return triangles.at(i, (s - before) / (after - before), t);
           };
           useBoth(at(from, part.t0), at(to, part.t0), at(to, part.t1), at(from, part.t1));
         }
@@ -474,8 +470,8 @@ void PartSampler::addPlane(const PlaneLight& plane, const V3d& towards) {
                           [&](double s, double t) { return onDiskByAngle(center, plane, s, t); });
         addParts(plane, false, [&](double s, double t) { return onDisk(center, plane, s, t); });
       },
-      [&](const PlaneLight::Fan& fan) {
-        addParts(plane, true, [&](double s, double t) { return onFan(center, fan, s, t); });
+      [&](const PlaneLight::Triangles& triangles) {
+        addParts(plane, true, [&](double s, double t) { return onTriangles(center, triangles, s, t); });
       });
 }
 

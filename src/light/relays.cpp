@@ -119,9 +119,9 @@ double extent(const LightSource& source, const V3d& along) {
         plane.map, [&](const PlaneLight::Parallelogram&) { return std::abs(u) + std::abs(v); },
         [&](const PlaneLight::Square&) { return source.radius; },
         [&](const PlaneLight::Disk&) { return std::hypot(u, v); },
-        [&](const PlaneLight::Fan& fan) {
+        [&](const PlaneLight::Triangles& triangles) {
           double most = 0;
-          for (const V3d& p : fan.vertices) most = std::max(most, (p - source.center).dot(along));
+          for (const V3d& p : triangles.vertices) most = std::max(most, (p - source.center).dot(along));
           return most;
         });
   };
@@ -138,8 +138,8 @@ LightShape imageOf(LightShape shape, const Projection& projection) {
         plane.normal = projection.vector(plane.normal).normalized();
         plane.u = projection.vector(plane.u);
         plane.v = projection.vector(plane.v);
-        if (auto* fan = std::get_if<PlaneLight::Fan>(&plane.map))
-          for (V3d& p : fan->vertices) p = projection.point(p);
+        if (auto* triangles = std::get_if<PlaneLight::Triangles>(&plane.map))
+          for (V3d& p : triangles->vertices) p = projection.point(p);
         measure(plane);
       },
       [&](TubeLight& tube) { tube.half = projection.vector(tube.half); },

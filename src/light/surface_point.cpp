@@ -73,9 +73,21 @@ SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Numbers&
       [](const Distant&) { return SurfacePoint{}; }, [](const NestedShape auto&) { return SurfacePoint{}; });
 }
 
+template <class Numbers>
+SurfacePoint samplePoint(const LightSource& source, const Scene& scene, Numbers& random) {
+  const auto* const plane = source.as<PlaneLight>();
+  const auto* const triangles = plane ? std::get_if<PlaneLight::Triangles>(&plane->map) : nullptr;
+  if (!triangles) return samplePoint(scene.surfaces[source.surface].shape, scene.vertices, random);
+  const size_t i = triangles->triangleAt(random.uniform());
+  const double s = random.uniform();
+  return {triangles->at(i, s, random.uniform()), plane->normal, clearanceOf(std::sqrt(plane->area))};
+}
+
 template V3d uniformDirection(Random&);
 template V3d uniformDirection(ScrambledPoint&);
 template SurfacePoint samplePoint(ShapeRef, std::span<const V3d>, Random&);
 template SurfacePoint samplePoint(ShapeRef, std::span<const V3d>, ScrambledPoint&);
+template SurfacePoint samplePoint(const LightSource&, const Scene&, Random&);
+template SurfacePoint samplePoint(const LightSource&, const Scene&, ScrambledPoint&);
 
 }  // namespace rsphere

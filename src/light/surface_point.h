@@ -3,7 +3,7 @@
 
 #include "base/random.h"
 #include "base/scrambled_sequence.h"
-#include "scene/shape.h"
+#include "light/light_source.h"
 
 namespace rsphere {
 
@@ -21,6 +21,10 @@ struct SurfacePoint {
 // vertices: Scene::vertices. Numbers: Random or ScrambledPoint.
 template <class Numbers>
 SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Numbers& random);
+
+// The same on a real light source, and uniform on concave goals, too.
+template <class Numbers>
+SurfacePoint samplePoint(const LightSource& source, const Scene& scene, Numbers& random);
 
 // A random direction (unit), uniform over the sphere.
 template <class Numbers>

@@ -81,7 +81,7 @@ struct LampWay {
 // A random way: of a spotlight, within its cone.
 template <class Numbers>
 LampWay wayFrom(const Scene& scene, const LightSource& light, Numbers& random) {
-  LampWay way{samplePoint(scene.surfaces[light.surface].shape, scene.vertices, random)};
+  LampWay way{samplePoint(light, scene, random)};
   if (light.spot) {
     way.direction = withinCone(light.spot->aim, light.spot->solidAngle, random);
     way.weight = std::max(0., way.from.normal.dot(way.direction)) * light.spot->solidAngle / kPi;
