@@ -6,13 +6,15 @@ import os
 import re
 import tempfile
 import unittest
+import unittest.mock
 import xml.dom.minidom
 
 import numpy as np
 
+from rsphere.layout import steps
 from rsphere.layout.room import Polygon, convex_parts, inside, inside_margin, surface_of, vector_of
 from rsphere.layout.search import even_choices
-from rsphere.layout.transfer import smoothed
+from rsphere.layout.transfer import Transfer, smoothed
 from run_here import built, run_here
 
 CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/layout/cases")
@@ -202,6 +204,30 @@ class Layouts(unittest.TestCase):
         run, _, _ = self.run_on(["place panel 5 3.5 2.9", "illuminance stage 20"], stage, "-c", "32", "-d", "512", "-b", "2")
         planned, found = re.search(r"(?m)^illuminance +stage +20 lx +([0-9.]+) lx +([0-9.]+) lx", run.stdout).groups()
         self.assertAlmostEqual(float(planned) / float(found), 1, delta=0.03, msg=run.stdout)
+
+    def test_more_directions_where_noisy(self):
+        """Of two uniform surfaces the cells of the noisy one alone have further directions: less noise, and the same light."""
+        shelf = "white polygon shelf 0 0 12 5 1 1 7 1 1 7 2 1 5 2 1\n"
+        lines = ["place panel 2 2.5 2.9", "illuminance floor 5 uniformity .01", "illuminance shelf 5 uniformity .01"]
+        asked, original = [], Transfer.with_more_directions
+
+        def watched(transfer, lamps, directions, more, receivers):
+            before = transfer.importance.copy()
+            found = original(transfer, lamps, directions, more, receivers)
+            asked.append((list(receivers), more / directions, list(found), transfer.cells, before, transfer.importance))
+            return found
+
+        with unittest.mock.patch.object(Transfer, "with_more_directions", watched), \
+                unittest.mock.patch.object(steps.Steps, "noise", lambda self, transfer: {0: 0.001, 1: 0.05}):
+            self.run_on(lines, shelf, "-c", "0", "-d", "2048", "-b", "2")
+        [(receivers, times, found, cells, before, after)] = asked
+        self.assertEqual((receivers, times, found), ([1], 7, [1]))
+        there = cells[1][0]
+        others = np.setdiff1d(np.arange(before.shape[1]), there)
+        np.testing.assert_array_equal(before[:, others], after[:, others])
+        self.assertAlmostEqual(after[:, there].sum() / before[:, there].sum(), 1, delta=0.05)
+        noise = [np.sqrt(values[:, there].var(axis=0, ddof=1).mean()) for values in (before, after)]
+        self.assertLess(noise[1], 0.7 * noise[0])
 
     def test_floor_in_a_glass_box(self):
         """What the panes of a box reflect to the floor inside of it was missing in the plan: a tenth of the reflected light."""

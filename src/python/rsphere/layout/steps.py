@@ -299,15 +299,23 @@ class Steps:
             transfer = Transfer(self.rsphere, files, d, folder, self.given.bounces, fine=True)
             finer = min(max(len(self.candidates) // (2 * len(lamps)), 1), MOST_FINER)
             self.planned_light = light_of(transfer, lamps, transfer.matrix(lamps, finer * self.given.directions))
-            times = (self.noise() / NOISY) ** 2
-            if times > 1 and finer < MOST_FINER:
-                finer = min(math.ceil(times * finer), MOST_FINER)
-                self.planned_light = light_of(transfer, lamps, transfer.matrix(lamps, finer * self.given.directions))
+            by_more = {}
+            for i, relative in self.noise(transfer).items():
+                if relative > NOISY and finer < MOST_FINER:
+                    by_more.setdefault(min(math.ceil((relative / NOISY) ** 2 * finer), MOST_FINER) - finer, []).append(i)
+            for more, noisy in by_more.items():
+                self.planned_light.cells.update(
+                    transfer.with_more_directions(lamps, finer * self.given.directions, more * self.given.directions, noisy))
 
-    def noise(self):
-        """The largest standard error of a planned uniformity, relative: that of its darkest cell alone."""
-        planned = [a for s in range(len(self.daylight)) for a in self.planned(s) if a.goal.kind == "uniformity"]
-        return max((a.error / a.value for a in planned if a.value > 0), default=0.0)
+    def noise(self, transfer):
+        """By receiver, the largest standard error of its planned uniformities, relative: that of its darkest cell alone."""
+        found = {}
+        for s in range(len(self.daylight)):
+            for a in self.planned(s):
+                if a.goal.kind == "uniformity" and a.value > 0:
+                    i = receiver_of(transfer, a.goal.target, ("plane",))
+                    found[i] = max(found.get(i, 0.0), a.error / a.value)
+        return found
 
     def dimmed_text(self):
         """The watts of each scene, if luminaires are dimmed."""

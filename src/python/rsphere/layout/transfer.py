@@ -68,12 +68,12 @@ class Receiver:
 
 @dataclass
 class Group:
-    """Goals that emit importance in one scene, each into a column of importance from the first on."""
+    """Goals that emit importance in one scene, each into a column of importance."""
 
     scene: object
     goals: object  # names of modifiers, or an array of sensors
     areas: np.ndarray
-    first: int
+    columns: np.ndarray
     points: list  # of each goal, spread over it; None if light by mirrors is not looked for
     caustics: bool  # whether this is also light by polished metal and balls
 
@@ -197,7 +197,7 @@ class Transfer:
         if areas:
             names = [f"layout_goal{i}" for i in range(len(areas))]
             points = [s.fine_points() for s in self.design.surfaces.values()] if self.images else None
-            self.groups.append(Group(self.scene_with(text, "goals"), names, np.array(areas), 0, points, False))
+            self.groups.append(Group(self.scene_with(text, "goals"), names, np.array(areas), np.arange(len(areas)), points, False))
 
     def goal_count(self):
         return sum(len(g.areas) for g in self.groups)
@@ -233,7 +233,7 @@ class Transfer:
             if group:
                 eyes = group[0].kind != "plane"
                 points = [r.points for r in group] if (self.mirrors if eyes else self.images) else None
-                self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first, points, eyes))
+                self.groups.append(Group(self.scene_with(text, f"goals{len(self.groups)}"), names, np.array(areas), first + np.arange(len(areas)), points, eyes))
 
     def add_cells(self):
         """Sensors on surfaces that are to be even: their points, or the middles of those of each cell."""
@@ -245,10 +245,10 @@ class Transfer:
                 begin, receiver = first + len(sensors), self.receivers[i]
                 at = np.hstack([surface.points, surface.normals])
                 sensors += list(receiver.cell_means(at) if many else at)
-                self.cells[i] = slice(begin, first + len(sensors)), (lambda v: v) if many else receiver.cell_means
+                self.cells[i] = np.arange(begin, first + len(sensors)), (lambda v: v) if many else receiver.cell_means
         if sensors:
             points = [s[None, :3] for s in sensors] if self.images else None
-            self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first, points, False))
+            self.groups.append(Group(self.rsphere.Scene(self.files), np.array(sensors), np.ones(len(sensors)), first + np.arange(len(sensors)), points, False))
 
     def scene_with(self, text, name):
         return self.rsphere.Scene([*self.files, write_text(f"{self.folder}/{name}.rad", text, errors="surrogateescape")])
@@ -275,10 +275,22 @@ class Transfer:
         """The Matrix of candidates. directions: of importance at each place (-Sn), in SETS sets. Points are those of the first call."""
         zones = Zones(self.rsphere.zone_middles(zone_count))
         self.prepare(candidates)
-        sets = self.sets(candidates, zones, directions // SETS)
-        return Matrix(self.points.means(), sets[:, [r.surface for r in self.receivers]],
-                      {i: smoothed(np.array([means(values[there]) for values in sets]), self.receivers[i].cell_means(self.receivers[i].points))
-                       for i, (there, means) in self.cells.items()})
+        self.importance = self.sets(candidates, zones, directions // SETS, self.groups)
+        return Matrix(self.points.means(), self.importance[:, [r.surface for r in self.receivers]], {i: self.at_cells(i) for i in self.cells})
+
+    def at_cells(self, i):
+        """What is reflected to each cell of a receiver, as Matrix has it."""
+        there, means = self.cells[i]
+        return smoothed(np.array([means(values[there]) for values in self.importance]), self.receivers[i].cell_means(self.receivers[i].points))
+
+    def with_more_directions(self, candidates, directions, more, receivers, zone_count=500):
+        """What is reflected to each cell of some receivers after matrix(), with further directions for these cells alone."""
+        there, group = np.concatenate([self.cells[i][0] for i in receivers]), self.groups[-1]
+        here = there - group.columns[0]
+        some = Group(group.scene, group.goals[here], group.areas[here], there, group.points and [group.points[i] for i in here], group.caustics)
+        sets = self.sets(candidates, Zones(self.rsphere.zone_middles(zone_count)), more // SETS, [some], SETS)
+        self.importance[:, there] += more / (directions + more) * (sets - self.importance)[:, there]
+        return {i: self.at_cells(i) for i in receivers}
 
     def prepare(self, candidates):
         """Light straight from candidates, and before the first ones the points and the scenes of goals."""
@@ -330,8 +342,8 @@ class Transfer:
         points, shares = parts_of(photometry, most or self.most_parts, self.fine)
         return candidate.position + points * self.design.units @ matrix.T, lambda directions: shares(directions @ matrix)
 
-    def sets(self, candidates, zones, directions):
-        """What goals get by their importance, one after the other of all groups: (SETS, goals, candidates)."""
+    def sets(self, candidates, zones, directions, groups, rotation=0):
+        """What the goals of some groups get by their importance: (SETS, all goals, candidates). rotation: of the first set."""
         most = min(max(ALL_PLACES_BUILT // len(candidates), 1), MOST_PLACES_BUILT)
         mean = self.zone_intensities(candidates, zones, most)
         spread = [self.parts(c, most)[0] for c in candidates]
@@ -341,17 +353,16 @@ class Transfer:
         whose = np.repeat(np.arange(len(candidates)), [len(p) for p in spread])
         area = zones.solid_angle * self.design.units**2  # importance has no unit of length, areas have
         values = np.zeros((SETS, self.goal_count(), len(candidates)))
-        steps = [max(1, MOST_VALUES // (len(group.areas) * zones.count)) for group in self.groups]
+        steps = [max(1, MOST_VALUES // (len(group.areas) * zones.count)) for group in groups]
         PROGRESS.begin(f"Importance at {len(places)} places", SETS * sum(-(-len(places) // step) for step in steps))
-        for group, step in zip(self.groups, steps):
+        for group, step in zip(groups, steps):
             beside = self.beside(group.points, places, zones) if group.points else None
-            count = len(group.areas)
             for begin in range(0, len(places), step):
                 here = np.flatnonzero((which >= begin) & (which < begin + step))  # parts
                 for k in range(SETS):
                     # -dv-: goals are black to rays that meet them without a reflection by a diffuse surface.
                     def bins(bounces, dv, caustics=False, group=group, at=places[begin : begin + step], k=k, **options):
-                        a = group.scene.importance(at, goals=group.goals, bins=zones.count, outputs="z", rotation=k,
+                        a = group.scene.importance(at, goals=group.goals, bins=zones.count, outputs="z", rotation=rotation + k,
                                                    ambient_bounces=bounces, directions=directions, dv=dv, Sgc=caustics, **options)
                         return a.bins.reshape(-1, len(group.areas), zones.count, 3) @ WEIGHTS / group.areas[:, None]
 
@@ -363,7 +374,7 @@ class Transfer:
                         w = reflected[at]
                         if group.points:
                             w = w + mirrored[at] * beside[:, begin + at]
-                        values[k, group.first : group.first + count, whose[part]] += w @ light[part] * area
+                        values[k, group.columns, whose[part]] += w @ light[part] * area
                     PROGRESS.advance()
         PROGRESS.clear()
         return values
