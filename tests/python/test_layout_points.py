@@ -12,7 +12,7 @@ import xml.dom.minidom
 import numpy as np
 
 from rsphere.layout import steps
-from rsphere.layout.room import Polygon, convex_parts, inside, inside_margin, surface_of, vector_of
+from rsphere.layout.room import Polygon, inside_margin, surface_of, vector_of
 from rsphere.layout.search import even_choices
 from rsphere.layout.transfer import Transfer, smoothed
 from run_here import built, run_here
@@ -86,19 +86,6 @@ class Shapes(unittest.TestCase):
         self.assertAlmostEqual(np.linalg.norm(vector_of(cut)), 5 * 5 - 3.5 * 3.5)
         back = inside_margin(Polygon("l", "m", L_SHAPE[::-1]), 0.5)
         self.assertLess(vector_of(back)[2], 0)
-
-    def test_convex_parts(self):
-        """Of either orientation, of walls, with a hole: together they are the polygon."""
-        frame = np.array([[0, 0], [4, 0], [4, 3], [0, 3], [0, 0], [1, 1], [1, 2], [2, 2.5], [2, 1], [1, 1.0]])
-        at = np.random.default_rng(3).uniform(-0.5, 6.5, (2000, 2))
-        for flat, count, area in ((L_SHAPE[:, :2], 2, 20), (L_SHAPE[::-1, :2], 2, 20), (L_SHAPE[[0, 1, 3, 5], :2], 2, 12), (frame, 7, 10.75), (L_SHAPE[[0, 1, 5], :2], 1, 18)):
-            for place in (np.eye(3)[:2], np.array([[0, 1, 0], [0, 0, 1.0]]), np.array([[1, 0, 0], [0, -1, 0.0]])):
-                corners, normal = flat @ place + 3 * np.cross(*place), np.cross(*place)
-                parts = convex_parts(corners, normal)
-                self.assertEqual(len(parts), count)
-                self.assertAlmostEqual(sum(vector_of(part) @ normal for part in parts), area)
-                covered = sum(inside(part @ place.T, at).astype(int) for part in parts)
-                np.testing.assert_array_equal(covered, inside(flat, at))
 
     def test_covered_points(self):
         """What is left has the area of the quarters of cells around the open points, whichever these are."""

@@ -274,40 +274,12 @@ def surface_of(polygons, name, place, units, back=False, spacing=None, margin=0.
     return Surface(name, named, side, outlines, np.array(cells), np.array(points), np.array(normals), np.arange(len(points)) // 4)
 
 
-def convex_parts(corners, normal):
-    """The corners of convex parts of a polygon, counterclockwise about a normal: itself, or trapezoids between the heights of its corners.
-
-    By odd crossings, as rays meet it: holes are joined to the outline by seams.
-    """
-    right, up = frame_of(normal)
-    flat = np.stack([corners @ right, corners @ up], axis=1)
-    edges = np.roll(flat, -1, axis=0) - flat
-    following, slight = np.roll(edges, -1, axis=0), 1e-9 * (np.ptp(flat, axis=0) ** 2).sum()
-    turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
-    if turns.min() >= -slight or turns.max() <= slight:
-        return [corners if vector_of(corners) @ normal > 0 else corners[::-1]]
-    parts, heights, order = [], np.unique(flat[:, 1]), 1 if np.cross(right, up) @ normal > 0 else -1
-    for low, high in zip(heights, heights[1:]):
-        sides = [[a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) for y in (low, high)]
-                 for a, b in zip(flat, np.roll(flat, -1, axis=0)) if min(a[1], b[1]) <= low and max(a[1], b[1]) >= high]
-        sides.sort(key=sum)
-        for (a, b), (c, d) in zip(sides[::2], sides[1::2]):
-            if (c + d - a - b) * (high - low) > slight:
-                part = np.array([[a, low], [c, low], [d, high], [b, high]])
-                part = part[np.abs(part - np.roll(part, 1, axis=0)).max(axis=1) > 0][::order]  # some are triangles
-                parts.append(part @ np.stack([right, up]) + (corners[0] @ normal) * normal)
-    return parts
-
-
 def goal_text(surface, modifier, units):
-    """Scene text of a surface that emits importance: its outlines, a little above themselves.
-
-    In convex parts: only these are sampled all over. Light that walls reflect to an L-shaped floor was missing.
-    """
+    """Scene text of a surface that emits importance: its outlines, a little above themselves."""
     text = f"inherit alias {modifier} {surface.polygons[0].modifier}\n"  # with its pattern
-    parts = [(part, normal) for outline, normal in surface.outlines for part in convex_parts(outline, normal)]
-    for i, (part, normal) in enumerate(parts):
-        corners = part + normal * LIFT * units
+    for i, (outline, normal) in enumerate(surface.outlines):
+        corners = outline + normal * LIFT * units
+        corners = corners if vector_of(corners) @ normal > 0 else corners[::-1]
         shown = " ".join(f"{v:.9g}" for v in corners.ravel())
         text += f"{modifier} polygon {modifier}.{i + 1}\n0\n0\n{corners.size} {shown}\n"
     return text
