@@ -73,6 +73,7 @@ SurfacePoint samplePoint(ShapeRef shape, std::span<const V3d> vertices, Numbers&
       [](const Distant&) { return SurfacePoint{}; }, [](const NestedShape auto&) { return SurfacePoint{}; });
 }
 
+static_assert(kLightForms == 8, "Can it be concave?");
 template <class Numbers>
 SurfacePoint samplePoint(const LightSource& source, const Scene& scene, Numbers& random) {
   const auto* const plane = source.as<PlaneLight>();
