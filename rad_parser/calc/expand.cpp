@@ -119,9 +119,8 @@ class Expander {
   }
 
   Id compile(const Syntax& tree, const Scope& scope) {
-    if (++depth_ > kMaxCompileDepth) {
+    if (++depth_ > kMaxCompileDepth)
       throw Error(fmt::format("{}: definitions nested too deeply", place(tree, scope)));
-    }
     const Id id = compileInner(tree, scope);
     --depth_;
     return id;
@@ -138,9 +137,8 @@ class Expander {
       case Kind::sum:
       case Kind::product: {
         Id left = compile(tree.args[0], scope);
-        for (size_t i = 1; i < tree.args.size(); ++i) {
+        for (size_t i = 1; i < tree.args.size(); ++i)
           left = graph.operate(operatorOf(tree.text[i - 1]), left, compile(tree.args[i], scope));
-        }
         return left;
       }
       case Kind::power: {
@@ -158,9 +156,8 @@ class Expander {
   }
 
   Id channel(const Syntax& tree, const Scope& scope) {
-    if (tree.index < 1 || static_cast<size_t>(tree.index) > input_.inputs) {
+    if (tree.index < 1 || static_cast<size_t>(tree.index) > input_.inputs)
       return fail(tree, scope, fmt::format("there is no channel ${}", tree.index));
-    }
     return scope.frame->graph.leaf(Op::input, static_cast<uint32_t>(tree.index - 1));
   }
 
@@ -171,9 +168,8 @@ class Expander {
 
   Id variable(const Syntax& tree, const Scope& scope) {
     const Symbol& s = symbol(tree.index);
-    if (s.definition == nullptr || s.definition->isFunction() || isUnavailable(*s.definition)) {
+    if (s.definition == nullptr || s.definition->isFunction() || isUnavailable(*s.definition))
       return fail(tree, scope, fmt::format("undefined variable \"{}\"", printable(s.name)));
-    }
     auto [it, isNew] = variables_.try_emplace(s.definition, kNone);
     if (isNew) {
       const Scope* inner = newScope(s.definition, nullptr, first());
@@ -248,9 +244,8 @@ class Expander {
 
   Id userCall(const Syntax& tree, const Scope& scope, const Definition& d) {
     Scope* inner = newScope(&d, &scope, *scope.frame);
-    for (size_t i = 1; i < tree.args.size() && i <= d.parameters.size(); ++i) {
+    for (size_t i = 1; i < tree.args.size() && i <= d.parameters.size(); ++i)
       inner->arguments.push_back({&tree.args[i], &scope, kNone, -1});
-    }
     if (++expansions_ > kMaxExpansions || !mayExpand(d, *inner)) return frameCall(tree, *inner, d);
     return compile(d.body, *inner);
   }
@@ -418,9 +413,8 @@ class Expander {
   }
 
   Id hostCall(const Syntax& tree, const Scope& scope, const HostFunction& f) {
-    if (static_cast<int>(tree.args.size()) - 1 < f.arity) {
+    if (static_cast<int>(tree.args.size()) - 1 < f.arity)
       return fail(tree, scope, fmt::format("{}(): too few arguments", f.name));
-    }
     Node n{.op = Op::host};
     std::vector<HostFunction>& hosts = out_.hosts;
     const auto known = std::ranges::find_if(hosts, [&](const auto& h) { return h.name == f.name; });

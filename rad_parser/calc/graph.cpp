@@ -83,9 +83,8 @@ Id Graph::operate(Op op, Id a, Id b, Id c) {
     case Op::divide:
       // Like RADIANCE, multiplies by the reciprocal of a constant divisor. The result may differ from the
       // quotient by one rounding.
-      if (isConstant(b) && std::isnormal(1 / nodes_[b].value)) {
+      if (isConstant(b) && std::isnormal(1 / nodes_[b].value))
         return operate(Op::multiply, a, constant(1 / nodes_[b].value));
-      }
       break;
     case Op::power: return raise(a, b);
     case Op::finite:

@@ -103,9 +103,8 @@ double* Program::enter(const Frame& frame, State& state, uint32_t base, uint32_t
 // Pushes an entry onto the return stack. The caller keeps the depth of the stack, so that the interpreter can
 // hold it in a register.
 void Program::push(const Frame& frame, State& state, size_t depth, size_t registers, State::Return back) {
-  if (depth >= kMaxDepth || registers > kMaxRegisters) {
+  if (depth >= kMaxDepth || registers > kMaxRegisters)
     throw Error(fmt::format("{}: recursion is too deep or endless", frame.name));
-  }
   if (depth == state.returns_.size()) state.returns_.resize(2 * depth + 64);
   state.returns_[depth] = back;
 }
@@ -161,9 +160,8 @@ void Program::evaluate(const Point& point, State& state, std::span<double> out) 
         break;
       case Op::realArgument: {
         const int n = rounded(r[i->a]);
-        if (n > static_cast<int>(point.reals.size())) {
+        if (n > static_cast<int>(point.reals.size()))
           throw Error(fmt::format("{}: missing real argument {}", messages_[i->b], n));
-        }
         r[i->to] = n < 1 ? static_cast<double>(point.reals.size()) : point.reals[static_cast<size_t>(n - 1)];
         break;
       }

@@ -124,14 +124,12 @@ CompileInput SymbolTable::compileInput(std::string place) const {
 bool SymbolTable::define(Definition definition, const std::string& context) {
   bind(definition.body, context, definition.file, definition.line != 0);
   const std::string qualified = candidates(definition.name, context).front();
-  if (qualified.empty()) {
+  if (qualified.empty())
     throw Error(fmt::format("{}:{}: expected a name to define", definition.file, definition.line));
-  }
   Symbol& symbol = symbols_[static_cast<size_t>(insert(qualified))];
   const Definition* before = symbol.definition;
-  if (before != nullptr && before->constant && warn_ && !same(before->body, definition.body)) {
+  if (before != nullptr && before->constant && warn_ && !same(before->body, definition.body))
     warn_(fmt::format("{}:{}: constant \"{}\" redefined", definition.file, definition.line, qualified));
-  }
   definitions_.push_back(std::move(definition));
   symbol.definition = &definitions_.back();
   return before != nullptr || context.empty() || !qualified.ends_with(context);
@@ -170,9 +168,8 @@ std::optional<double> SymbolTable::constantValue(const Syntax& tree, const std::
   }
   State state;
   if (program->isConstant()) return program->evaluate({}, state);
-  if (needsRay(tree, place)) {
+  if (needsRay(tree, place))
     throw Error(fmt::format("{}: constant expression depends on the ray or the primitive", place));
-  }
   return std::nullopt;
 }
 

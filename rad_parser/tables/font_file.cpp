@@ -117,9 +117,8 @@ void TextLayout::spaceProportionally(Line& line, int spacing) const {
       const size_t from = end++;
       room += line.advance[end];
       if (glyph(line, from) != nullptr) {
-        for (const Glyph* g = glyph(line, end); g != nullptr && g->vertices.empty(); g = glyph(line, end)) {
+        for (const Glyph* g = glyph(line, end); g != nullptr && g->vertices.empty(); g = glyph(line, end))
           room += line.advance[++end];
-        }
         characters += end - from;
       }
       if (end - from > column) break;

@@ -188,9 +188,8 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
     const PlainPlace at =
         all_.surfaces_.placeOf(beam_.origin, beam_.direction, {hit, hit.distance, Coefficient(1)}, scratch_);
     if (course.met == 0) course.firstLength = beam_.length;
-    if (past_.fromSource) {
+    if (past_.fromSource)
       beam_.power = beam_.power * all_.starts_.onSources.divergence(past_.source, beam_.length);
-    }
     ++course.met;
     if (!at.material) {
       course.metUnknown += prepared_.lights().of(at.surface) == kNone;

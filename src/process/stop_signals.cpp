@@ -50,9 +50,8 @@ State state;
 // as for a closed descriptor.
 void occupyStandardDescriptors() {
   for (int fd = 0; fd <= 2; ++fd)
-    if (fcntl(fd, F_GETFD) < 0) {
-      [[maybe_unused]] const int taken = open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
-    }
+    if (fcntl(fd, F_GETFD) < 0) [[maybe_unused]]
+      const int taken = open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
 // Monotonic time, ns. A signal handler may call it, because it only calls clock_gettime(2).
@@ -75,9 +74,8 @@ void onSignal(int number) {
     for (size_t i = 0; i < kSignals.size() && !state.told; ++i)
       if (kSignals[i].number == (again ? first : number)) {
         const std::string& text = state.messages[i];
-        if (write(state.messageFd, text.data(), text.size()) < 0) {
-          [[maybe_unused]] const ssize_t n = write(2, text.data(), text.size());
-        }
+        if (write(state.messageFd, text.data(), text.size()) < 0) [[maybe_unused]]
+          const ssize_t n = write(2, text.data(), text.size());
       }
     _exit(kStatus);
   }

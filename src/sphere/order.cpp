@@ -57,9 +57,8 @@ std::uint32_t placeOnCurve(const V3d& d) {
 void orderAlongCurve(std::span<const Site> sites, OrderScratch& scratch, std::vector<std::uint32_t>& order) {
   // The lower half of a key is the index of the site.
   scratch.keys.resize(sites.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
+  for (std::size_t i = 0; i < sites.size(); ++i)
     scratch.keys[i] = std::uint64_t{placeOnCurve(sites[i].at)} << 32 | i;
-  }
   std::ranges::sort(scratch.keys);
   order.resize(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) order[i] = static_cast<std::uint32_t>(scratch.keys[i]);

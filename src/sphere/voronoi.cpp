@@ -181,9 +181,8 @@ void VoronoiWorkspace::Data::addKeptTriangles(const BaseTriangulation::Data& bas
   }
   for (auto t = static_cast<std::uint32_t>(places); t < triangles.size(); ++t) which[added++] = t;
   which.resize(added);
-  if (!triangulation.delaunay.unused.empty()) {
+  if (!triangulation.delaunay.unused.empty())
     std::erase_if(which, [&](std::uint32_t t) { return triangles[t].corner[0] == kNone; });
-  }
 }
 
 void VoronoiWorkspace::Data::finishAreas() {
