@@ -166,13 +166,11 @@ class Images {
   // none and returns false if there are more than `most`.
   bool addAll(int relays, size_t most) {
     const size_t real = sources_.size();
-    for (size_t i = 0; i < real; ++i) {
+    for (size_t i = 0; i < real && sources_.size() - real <= most; ++i)
       addImages(LightId(i), relays, most - (sources_.size() - real));
-      if (sources_.size() - real <= most) continue;
-      sources_.resize(real);
-      return false;
-    }
-    return true;
+    if (sources_.size() - real <= most) return true;
+    sources_.resize(real);
+    return false;
   }
 
  private:

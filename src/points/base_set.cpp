@@ -22,9 +22,4 @@ BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampli
   return base;
 }
 
-Neighbours neighboursOf(const VoronoiWorkspace& workspace) {
-  VoronoiCells cells = voronoiCells(workspace);
-  return {std::move(cells.first), std::move(cells.neighbour)};
-}
-
 }  // namespace rsphere

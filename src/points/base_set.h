@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "points/error_estimate.h"
@@ -24,6 +25,9 @@ struct BaseSet {
 BaseSet makeBaseSet(const SphereOptions& options, const SpectralSampling* sampling, bool standardErrors);
 
 // The pairs of directions whose Voronoi cells share a side, in the last query of the workspace.
-Neighbours neighboursOf(const VoronoiWorkspace& workspace);
+inline Neighbours neighboursOf(const VoronoiWorkspace& workspace) {
+  VoronoiCells cells = voronoiCells(workspace);
+  return {std::move(cells.first), std::move(cells.neighbour)};
+}
 
 }  // namespace rsphere

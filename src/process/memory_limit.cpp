@@ -10,8 +10,7 @@
 namespace rsphere {
 
 void limitMemory() {
-  struct rlimit data {
-  }, space{};
+  rlimit data{}, space{};
   if (getrlimit(RLIMIT_DATA, &data) != 0 || getrlimit(RLIMIT_AS, &space) != 0) return;
   if (data.rlim_cur != RLIM_INFINITY || space.rlim_cur != RLIM_INFINITY) return;
   struct sysinfo machine {};

@@ -1,7 +1,6 @@
 #include "targets/targets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "base/keep_largest.h"

@@ -8,7 +8,7 @@ namespace rsphere {
 
 // The aims of gathers; none without indirect light (-ab 0, -ad 0). Looks for these kinds of places:
 // - openings, except in scenes with importance goals, and their images in flat mirrors;
-// - bright spots, if light is interpolated (-aa above 0) or if there are openings;
+// - bright spots;
 // - highlights.
 // Traces some paths to determine where daylight enters.
 FoundAims findAimsOfGathers(const PreparedScene& prepared);

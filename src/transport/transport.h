@@ -4,6 +4,7 @@
 #include "rays/prepared_scene.h"
 #include "transport/aims.h"
 #include "transport/caches.h"
+#include "transport/find_aims.h"
 #include "transport/path_tracer.h"
 
 namespace rsphere {
@@ -14,10 +15,13 @@ class Transport {
   // Parameters: see PreparedScene. If there is indirect light (-ab) and the scene has panes or holes, traces
   // some paths to find the openings through which daylight enters. Throws the exceptions of PreparedScene.
   Transport(const Scene& scene, const RayOptions& options, IrradianceAt irradiance,
-            bool basicRadiance = false, const rad::Warn& warn = {});
+            bool basicRadiance = false, const rad::Warn& warn = {})
+      : prepared_(scene, options, irradiance, basicRadiance, warn),
+        caches_(makeCaches(prepared_, aims_, warn)) {}
   // Prepares the scene of `other` for radiance, with other options, without warnings. REQUIRES that both have
   // the same -bv.
-  Transport(const Transport& other, const RayOptions& options);
+  Transport(const Transport& other, const RayOptions& options)
+      : prepared_(other.prepared_, options), caches_(makeCaches(prepared_, aims_, {})) {}
 
   const PreparedScene& prepared() const { return prepared_; }
   Aims aims() const { return aims_; }
@@ -30,7 +34,7 @@ class Transport {
 
  private:
   PreparedScene prepared_;
-  FoundAims aims_;
+  FoundAims aims_ = findAimsOfGathers(prepared_);
   Caches caches_;
 };
 
