@@ -129,7 +129,7 @@ bool PlainSurfaces::isKnown(LightId source) const {
   if (light.isDistant()) return prepared_.lights().constantRadiance(source);
   if (light.reach > 0) return false;
   const auto* const plane = light.as<PlaneLight>();
-  // Not known: concave lamps and bent polygons, parts of which samples miss. A ring that is a source has no hole.
+  // Not known: concave lamps and bent polygons, which samples may miss. A ring that is a source has no hole.
   const bool isRing = plane && std::holds_alternative<PlaneLight::Disk>(plane->map);
   if (!light.hitsWhereAimed && !isRing && !light.as<TubeLight>()) return false;
   if (light.spot && !plane) return false;
