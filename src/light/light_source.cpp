@@ -170,8 +170,10 @@ bool canBeAimedAt(ShapeRef shape, const Scene& scene) {
       shape,
       [&](const Polygon& polygon) {
         const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
+        constexpr size_t kMostCorners = 256;  // the number of triangles may grow with the square
         return isConvex(v, polygon.normal) ||
-               cover(trianglesOf(v, polygon.normal), areaOf(polygon, scene.vertices));
+               (v.size() <= kMostCorners &&
+                cover(trianglesOf(v, polygon.normal), areaOf(polygon, scene.vertices)));
       },
       [](const Ring& ring) { return ring.inner == 0; }, [](const Sphere& sphere) { return !sphere.inward; },
       [](const Cone& cone) { return !cone.inward && cone.radius0 == cone.radius1; },

@@ -17,9 +17,9 @@ struct PartSampler {
 
 // Images of sources in mirrors, if as many are made as it takes (relays.cpp).
 struct Relays {
-  // Between two mirrors of reflectance .9, images by up to 2, 4 and 8 reflections show 19, 34 and 57% of all
-  // light that is reflected there; below a shaft of such mirrors, 2 leave sensors at a tenth
-  // (tests/bench/rtrace/runs/2026-11-29-relays.txt).
+  // Between two mirrors of reflectance .9, images by up to n reflections show 1 - .9^n of all light that
+  // is reflected there: 19, 34 and 57% with 2, 4 and 8. Below a shaft of such mirrors, 2 leave sensors at
+  // a tenth (tests/bench/rtrace/runs/2026-11-29-relays.txt).
   static constexpr int kMost = 8;
   // The number of images is at most kFew, and kForEach for each source, with which two parallel mirrors have
   // kMost reflections. Two reflections are followed in any case, as by rtrace's default.

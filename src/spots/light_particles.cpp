@@ -31,10 +31,9 @@ class Lamp {
   struct BrightWay : LampWay {
     double bright = 1;  // radiance relative to that without patterns
   };
-  // The brightest of some ways, each chosen in proportion to its brightness (as source_emission.h does). The
-  // brightness of the result is their mean.
+  // One of some ways, chosen in proportion to its brightness, which becomes the mean of all.
   BrightWay leave(Random& random) {
-    if (patterns_ == kNone) return tried(random);
+    if (patterns_ == kNone) return {wayFrom(scene_, light_, random)};
     BrightWay chosen;
     double sum = 0;
     for (size_t i = 0; i < tuning::LightParticles::kTried; ++i) {

@@ -164,8 +164,9 @@ TEST(Source, TriangleAndPentagonLightByTheirEdges) {
   }
 }
 
-// Importance goals that are concave: an L, a frame whose hole is connected by a seam, a tilted arrow. What
-// shines is not sampled all over, as in rtrace, nor is a goal that crosses itself a source.
+// Importance goals that are concave: an L, a frame whose hole is connected by a seam, a tilted arrow.
+// What shines is not sampled all over, as in rtrace, nor is a goal that crosses itself a source, or one
+// with so many corners that its triangles would fill the memory.
 TEST(Source, ConcaveGoalsLightByTheirEdges) {
   const std::vector<V3d> l = {V3d(-1, -1, 1), V3d(-1, 3, 1),  V3d(.5, 3, 1),
                               V3d(.5, 0, 1),  V3d(2.5, 0, 1), V3d(2.5, -1, 1)};
@@ -196,10 +197,20 @@ TEST(Source, ConcaveGoalsLightByTheirEdges) {
       EXPECT_TRUE(inside(*scene.surfaces.at(0).shape.as<Polygon>(), scene.vertices, at.point, 1e-9));
     }
   }
-  const std::string knot = textOf({V3d(0, 0, 1), V3d(2, 1, 1), V3d(2, 0, 1), V3d(0, 2, 1)});
-  Scene scene = sceneOf(lit("plastic lamp\n0\n0\n5 .5 .5 .5 0 0", knot));
-  setGoals(scene, goals);
-  EXPECT_EQ(LightSources(scene).all().size(), 0u);
+  const auto sourcesOf = [&](const std::vector<V3d>& outline) {
+    Scene scene = sceneOf(lit("plastic lamp\n0\n0\n5 .5 .5 .5 0 0", textOf(outline)));
+    setGoals(scene, goals);
+    return LightSources(scene).all().size();
+  };
+  EXPECT_EQ(sourcesOf({V3d(0, 0, 1), V3d(2, 1, 1), V3d(2, 0, 1), V3d(0, 2, 1)}), 0u);
+  const auto comb = [](int teeth) {
+    std::vector<V3d> outline{V3d(0, 0, 1)};
+    for (int i = 0; i < 2 * teeth; ++i) outline.emplace_back(.01 * i, i % 2 ? 1 : 2, 1);
+    outline.emplace_back(.02 * teeth, 0, 1);
+    return outline;
+  };
+  EXPECT_EQ(sourcesOf(comb(100)), 1u);
+  EXPECT_EQ(sourcesOf(comb(200)), 0u);
 }
 
 // Disk of radius r at distance d on its axis: pi r^2 / (r^2 + d^2).
