@@ -7,7 +7,8 @@ import numpy as np
 
 from ..command import program
 from ..fault import fault, fault_of, lines_of, number, write_text
-from ..layout.room import polygons_named
+from ..layout.room import frame_of, inside, polygons_named
+from .areas import areas_of
 
 WORDS = ("x", "y", "z", "the direction along x", "the direction along y", "the direction along z")
 
@@ -17,6 +18,7 @@ OCTREE = b"FORMAT=Radiance_octree"
 CUBE = 4  # its origin and size, as strings
 COLORS = np.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]])  # from low to high, readable without color vision
 WIDE, EDGE = 700, 40  # of a plan, pixels
+SAME_PLANE = 1e-3  # of the size of a polygon: how far it may be from a plane in which it lies
 SAMPLE = 200  # sensors by which their spacing is judged
 
 
@@ -57,19 +59,29 @@ def plan_command(given, name):
     return [program("plan"), "-s", name, "-h", f"{given.height:.9g}", "-d", f"{given.spacing:.9g}", "-m", f"{given.margin:.9g}"]
 
 
+def polygons_below(sensors, height, name, polygons):
+    """The polygons over which plan lays a grid: of a name, or else of a modifier, whichever side is up; or of its aliases, which plan alone knows."""
+    normal = sensors[0, 3:]
+    feet, frame = sensors[:, :3] - height * normal, np.stack(frame_of(normal), axis=1)
+    has = lambda p: inside(p.corners @ frame, feet @ frame) & (np.abs((feet - p.corners[0]) @ normal) < SAME_PLANE * np.ptp(p.corners, axis=0).max())  # noqa: E731
+    named = [p for p in polygons if p.name == name] or [p for p in polygons if p.modifier == name]
+    lost = ~np.any([has(p) for p in named], axis=0)
+    return named + [p for p in polygons if (has(p) & lost).any()]
+
+
 def sensors_on(given, polygons):
     """The sensors of a grid over each of the work planes, by the rules of the program plan; the share of the area of each; and, for each
     work plane, its name and which of the sensors are on it."""
     rows, areas, planes = [], [], []
     for name in given.on:
-        area = sum(np.linalg.norm(p.vector()) for p in polygons_named(polygons, name, ("--on " + name, None)))
+        polygons_named(polygons, name, ("--on " + name, None))  # or a fault with names that resemble it
         run = subprocess.run([*plan_command(given, name), "-p", *given.scene], capture_output=True, text=True, check=False)
         if run.returncode:
             raise fault_of(run.stderr)
         found = [[float(word) for word in line.split()] for line in run.stdout.splitlines()]
         planes.append((name, slice(len(rows), len(rows) + len(found))))
         rows += found
-        areas += [area / len(found)] * len(found)
+        areas += [*areas_of(np.array(found), polygons_below(np.array(found), given.height, name, polygons), given.margin)]
     return np.array(rows), np.array(areas) / sum(areas), planes
 
 
