@@ -491,6 +491,14 @@ class Closed(InAFolder):
             self.assertTrue(out.startswith(stream.read()))
         xml.dom.minidom.parse(os.path.join(folder, "useful.svg"))
 
+    def test_a_reader_that_has_gone(self):
+        """The files are there, though nothing can be printed."""
+        with self.command("-e", "2", "--spacing", "4", stderr=subprocess.DEVNULL, env=dict(os.environ, PYTHONUNBUFFERED="1")) as run:
+            run.stdout.close()
+            run.wait()
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("page.html", os.listdir(os.path.join(self.folder.name, "annual")))
+
     def test_a_room_without_windows(self):
         """It is dark, which a warning says; nothing is divided by its light."""
         with self.command("-e", "2", "--spacing", "4", stderr=subprocess.DEVNULL) as run:

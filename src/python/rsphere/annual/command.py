@@ -321,12 +321,12 @@ def main():
         if len(eyes):
             add_eyes(eyes, light, glare, report)
         add_outside(given, polygons, sensors, year.weights, weather.place, report)
-    text = report.text()
-    print(text, end="")
+    text = report.text()  # printed when all is in files: who reads it may have gone
     report.write(given.output, "table.txt", text)
     report.write_places(given.output, "sensors.txt", sensors[:, :3], report.quantities)
     if report.eyes:
         report.write_places(given.output, "eyes.txt", *report.eyes)
     report.write_page(given, planes, sensors, polygons)
+    print(text, end="")
     print(f"{os.path.join(given.output, 'page.html')}: the page")
     return 0
