@@ -43,6 +43,8 @@ class Areas(unittest.TestCase):
                 ("triangles", [(1, 1), (3, 1), (1, 3), (3, 3)], [SQUARE[:3], (*SQUARE[2:], SQUARE[0])], [4, 4, 4, 4]),
                 ("squares that overlap in 4 of 28", [(1, 1), (5, 5)], [SQUARE, ((2, 2), (6, 2), (6, 6), (2, 6))], [14, 14]),
                 ("the same polygon twice", [(1, 2), (3, 2)], [SQUARE, SQUARE], [8, 8]),
+                ("corners and places twice", [(1, 1), (3, 1), (1, 3)], [(*CORNER[:2], *CORNER[1:5], (1, 4), *CORNER[5:], CORNER[5])], [4, 4, 4]),
+                ("edges that cross: 16/3 and 4/3, divided at x = 4/3", [(2, 1), (2 / 3, 1)], [((0, 0), (4, 4), (4, 0), (0, 2))], [16 / 3, 4 / 3]),
                 ("one sensor has all", [(1, 1)], [CORNER], [12])):
             with self.subTest(name):
                 np.testing.assert_allclose(areas(places, *polygons), expected, rtol=1e-12)

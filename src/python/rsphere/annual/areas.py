@@ -61,11 +61,23 @@ def without(part, holes, boxes, tiny):
     return rest
 
 
-def trapezoids(ring):
-    """The parts of a polygon between levels of its corners. Inside is what an odd number of crossings says, as in RADIANCE."""
-    edges = [sorted(side, key=lambda p: p[1]) for side in sides(ring)]
+def edges_of(rings, size):
+    """For each edge its start, its way, and from 0 to 1 the places along it at which others meet it."""
+    starts, ways = np.concatenate(rings), np.concatenate([np.roll(ring, -1, axis=0) - ring for ring in rings])
+    lengths = np.hypot(*ways.T)
+    for a, along in zip(starts, ways):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slant = along[0] * ways[:, 1] - along[1] * ways[:, 0]
+            t, u = (((starts - a)[:, 0] * d[..., 1] - (starts - a)[:, 1] * d[..., 0]) / slant for d in (ways, along))
+            meets = (np.abs(slant) > SAME * np.hypot(*along) * lengths) & (np.abs(u - 0.5) < 0.5 + SAME * size / lengths) & (t > 0) & (t < 1)
+        yield a, along, [0, *sorted(t[meets]), 1]
+
+
+def trapezoids(ring, size):
+    """The parts of a polygon between levels at which it has corners. Inside is what an odd number of crossings says, as in RADIANCE."""
+    edges = [sorted(side, key=lambda p: p[1]) for side in sides(ring.tolist())]
     at = lambda a, b, y: a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])  # noqa: E731
-    levels = sorted({y for _, y in ring})
+    levels = sorted({*ring[:, 1].tolist(), *(float(a[1] + t * along[1]) for a, along, cuts in edges_of([ring], size) for t in cuts[1:-1])})
     for low, high in zip(levels, levels[1:]):
         crossed = sorted(((at(a, b, low), at(a, b, high)) for a, b in edges if a[1] <= low and b[1] >= high), key=sum)
         for left, right in zip(crossed[::2], crossed[1::2]):
@@ -73,15 +85,10 @@ def trapezoids(ring):
 
 
 def outline(rings, size):
-    """Edges with the plane on one side alone, cut where others meet them: ends and unit normals. Seams of holes are none."""
-    starts, ways = np.concatenate(rings), np.concatenate([np.roll(ring, -1, axis=0) - ring for ring in rings])
-    pieces, lengths = [], np.hypot(*ways.T)
-    for a, along, length in zip(starts, ways, lengths):
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slant = along[0] * ways[:, 1] - along[1] * ways[:, 0]
-            t, u = (((starts - a)[:, 0] * d[..., 1] - (starts - a)[:, 1] * d[..., 0]) / slant for d in (ways, along))
-            meets = (np.abs(slant) > SAME * length * lengths) & (np.abs(u - 0.5) < 0.5 + SAME * size / lengths) & (t > 0) & (t < 1)
-        cuts = [0, *sorted(t[meets]), 1]
+    """Pieces of edges with the plane on one side alone: ends and unit normals. Seams of holes are none."""
+    pieces = []
+    for a, along, cuts in edges_of(rings, size):
+        length = np.hypot(*along)
         pieces += [(a + s * along, a + e * along, np.array([-along[1], along[0]]) / length) for s, e in zip(cuts, cuts[1:]) if (e - s) * length > SAME * size]
     pieces = np.array(pieces)
     aside = [pieces[:, :2].mean(axis=1) + d * size * pieces[:, 2] for d in (ASIDE, -ASIDE)]
@@ -92,7 +99,7 @@ def outline(rings, size):
 def parts_of(rings, margin):
     """Convex polygons that have no place in common: the plane of polygons, which may overlap, without a margin along its outline."""
     size = np.ptp(np.concatenate(rings), axis=0).max()
-    whole, tiny = [[*trapezoids(ring.tolist())] for ring in rings], TINY * size**2
+    whole, tiny = [[*trapezoids(ring, size)] for ring in rings], TINY * size**2
     holes = [p for ring in whole for p in ring]
     boxes, had, parts = boxes_of(holes), 0, []
     for ring in whole:
