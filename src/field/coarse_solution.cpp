@@ -174,36 +174,33 @@ CoarseSolution::CoarseSolution(const Scene& scene, const Box3d& bounds, const Fi
 CoarseSolution::~CoarseSolution() = default;
 
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
-  const double rays = options.rays / options.solutions;
+  const bool first = options.patchesAtFirst, several = options.solutions > 1;
   const double accuracy = std::max(options.accuracy / OfPatches::kUsualAccuracy, 1 / OfPatches::kMoreRays);
-  const double finer = std::min(accuracy, std::sqrt(accuracy));
-  const bool first = options.patchesAtFirst;
-  const double far = first ? OfPatches::kFarPatchAtFirst : OfPatches::kFarPatch;
-  const double near = first ? OfPatches::kNearAtFirst : OfPatches::kNear;
-  const double share = first ? OfPatches::kUsualShareAtFirst : OfPatches::kUsualShare;
-  const double fewer = first || options.solutions > 1 ? 1 : OfPatches::kFewerByLamps;
-  if (!daylit)
-    return {OfPatches::kCoarserByLamps * OfPatches::kSpacing * finer,
-            OfPatches::kCoarserByLamps * OfPatches::kLeastPatch, OfPatches::kCoarserByLamps * far, near,
-            fewer * OfPatches::kRays * rays, first ? 1. : 0., 1,
-            first ? OfPatches::kCoarserByLamps * OfPatches::kCoarserByLamps * OfPatches::kLeastRays
-                  : fewer * OfPatches::kLeastRays,
-            rays, share, 0,
-            // Several solutions have few rays each. By noisy slopes of links, light can grow from bounce to
-            // bounce. Gathers need slopes: without them, sensors below a cove are 6 to 8% too bright.
-            options.solutions > 1 ? OfPatches::kFewestForSlopes : 0};
-  return {OfPatches::kSpacing * finer,
-          OfPatches::kLeastPatch,
-          far,
-          near,
-          OfPatches::kRays * rays * std::max(1., 1 / accuracy),
-          0,
-          OfPatches::kMoreRays,
-          options.solutions > 1 ? OfPatches::kLeastRaysOfSolutions : OfPatches::kLeastRays,
-          rays,
-          share,
-          OfPatches::kFewestForSlopes,
-          OfPatches::kFewestForSlopes};
+  Effort of;
+  of.spacing = OfPatches::kSpacing * std::min(accuracy, std::sqrt(accuracy));
+  of.leastSide = OfPatches::kLeastPatch;
+  of.farSide = first ? OfPatches::kFarPatchAtFirst : OfPatches::kFarPatch;
+  of.nearSide = first ? OfPatches::kNearAtFirst : OfPatches::kNear;
+  of.half = several ? OfPatches::kHalfOfSolutions : OfPatches::kHalf;
+  of.asked = options.rays / options.solutions;
+  of.usual = OfPatches::kRays * of.asked * std::max(1., 1 / accuracy);
+  of.more = OfPatches::kMoreRays;
+  of.least = several ? OfPatches::kLeastRaysOfSolutions : OfPatches::kLeastRays;
+  of.usualShare = first ? OfPatches::kUsualShareAtFirst : OfPatches::kUsualShare;
+  of.forSlopes = of.forLinks = OfPatches::kFewestForSlopes;
+  if (daylit) return of;
+  const double coarser = OfPatches::kCoarserByLamps;
+  const double fewer = first || several ? 1 : OfPatches::kFewerByLamps;
+  for (double* const side : {&of.spacing, &of.leastSide, &of.farSide}) *side *= coarser;
+  of.usual = fewer * OfPatches::kRays * of.asked;
+  of.fewer = first ? 1 : 0;
+  of.more = 1;
+  of.least = (first ? coarser * coarser : fewer) * OfPatches::kLeastRays;
+  // Several solutions have few rays each. By noisy slopes of links, light can grow from bounce to bounce.
+  // Gathers need slopes: without them, sensors below a cove are 6 to 8% too bright.
+  of.forSlopes = 0;
+  if (!several) of.forLinks = 0;
+  return of;
 }
 
 CoarseSolution::Frame& CoarseSolution::frameOf(const SurfaceChart& chart, const CellKey& key,
@@ -312,10 +309,10 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < OfPatches::kHalf * std::max(division.side, suffices)) return {};
+  if (chart->extent() < effort_.half * std::max(division.side, suffices)) return {};
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < OfPatches::kHalf * grid_.side(level)) return {};
+  if (place.distance < effort_.half * grid_.side(level)) return {};
   level = std::max(
       level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);
