@@ -181,7 +181,6 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
   of.leastSide = OfPatches::kLeastPatch;
   of.farSide = first ? OfPatches::kFarPatchAtFirst : OfPatches::kFarPatch;
   of.nearSide = first ? OfPatches::kNearAtFirst : OfPatches::kNear;
-  of.half = several ? OfPatches::kHalfOfSolutions : OfPatches::kHalf;
   of.asked = options.rays / options.solutions;
   of.usual = OfPatches::kRays * of.asked * std::max(1., 1 / accuracy);
   of.more = OfPatches::kMoreRays;
@@ -309,10 +308,10 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < effort_.half * std::max(division.side, suffices)) return {};
+  if (chart->extent() < OfPatches::kHalf * std::max(division.side, suffices)) return {};
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < effort_.half * grid_.side(level)) return {};
+  if (place.distance < OfPatches::kHalf * grid_.side(level)) return {};
   level = std::max(
       level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);

@@ -89,7 +89,6 @@ class CoarseSolution {
     double usualShare;       // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
     double forSlopes;        // least number of rays of a patch whose light has slopes
     double forLinks;         // the same for light that links use; below it, they use the mean
-    double half;             // tuning::CoarseSolution::kHalf or kHalfOfSolutions
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

@@ -71,10 +71,11 @@ struct CoarseSolution {
   // 1.2 times the time.
   RSPHERE_TUNED(CoarseSolution, double, kSpacing, .3);
   // Paths are followed if the viewing distance or the extent of the surface is below this multiple of a
-  // patch's side: kHalf is insensitive. Several solutions have patches of few rays, whose light mostly has no
-  // slopes. Measured: with .5 for them, too, a sensor between two buildings is 1.5% too bright, and rooms take
-  // 1.35 times the time for equal noise; with 4, 1.1 times (2026-11-30-solutions.txt).
-  static constexpr double kHalf = .5, kHalfOfSolutions = 2;
+  // patch's side. Measured: with .5, sensors between two buildings are 1.5% too bright at -Sa .015, those of
+  // a room with a door and frosted panes 1.2 +- .2% too dark at -aa .1. For equal noise, sensors then take
+  // 1.35 times the time at -Sa .01, .9 times at -aa .1, and spherical means 1.05 times
+  // (2026-11-30-near-patches.txt).
+  RSPHERE_TUNED(CoarseSolution, double, kHalf, 2);
   // The side of a patch is at most this fraction of the viewing distance, down to the smallest patches of its
   // surface. Measured between boards close above each other: with .5, sensors are .7% too dark, with .25 .1%,
   // in an equal time.
