@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -104,13 +105,9 @@ const OptionEntry* findOption(std::span<const OptionEntry> table, std::string_vi
 
 // Whether rtrace accepts the word as an argument: it contains visible characters and no control characters.
 bool isWord(const std::string& word) {
-  bool seen = false;
-  for (const char c : word) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 32 && c != '\t') return false;
-    seen |= byte > 32 && byte != 127;
-  }
-  return seen;
+  const auto isControl = [](unsigned char c) { return c < 32 && c != '\t'; };
+  const auto isVisible = [](unsigned char c) { return c > 32 && c != 127; };
+  return std::ranges::none_of(word, isControl) && std::ranges::any_of(word, isVisible);
 }
 
 // " from 1 to 1000000" or similar; empty if the numbers of an option are unlimited.
@@ -257,11 +254,18 @@ void checkLetters(const Options& options) {
                                  hint, known, options.sphereMode ? "" : " and t, T for ray trees"));
   }
   if (options.out == NumberFormat::rgbe && (options.outputs.size() != 1 || !options.treeOutputs.empty() ||
-                                            colors.find(options.outputs[0]) == std::string::npos)) {
-    std::string list;
-    for (const char letter : colors) list += fmt::format("{}-o{}", list.empty() ? "" : ", ", letter);
-    throw rad::Error(fmt::format("color format only with {}", list));
-  }
+                                            colors.find(options.outputs[0]) == std::string::npos))
+    throw rad::Error(fmt::format("color format only with -o{}", fmt::join(colors, ", -o")));
+}
+
+// Remarks on a letter of -o that is written twice (e may follow several), and on zones that none shows.
+void remarkOnLetters(Options& options) {
+  const std::string& letters = options.outputs;
+  for (size_t i = 1; i < letters.size(); ++i)
+    if (letters.find(letters[i]) < i && (letters[i] != 'e' || letters[i - 1] == 'e'))
+      options.messages.remarks.push_back(fmt::format("-o{}: {} is written twice", letters, letters[i]));
+  if (options.sphere.zones > 0 && letters.find_first_of("zZ") == std::string::npos)
+    options.messages.remarks.push_back("zones (-Sz, -Szb) have no effect without z among the letters of -o");
 }
 
 // Reports rtrace's errors and warnings about colors.
@@ -277,9 +281,8 @@ void checkColorOutput(Options& options) {
     options.messages.remarks.push_back("spectral range incompatible with color output");
   if (options.out == NumberFormat::rgbe && oneChannel)
     throw rad::Error("color format incompatible with -pY, -pS, -pM");
-  const auto error = std::ranges::find_if(options.outputs, [](char letter) {
-    return haveErrors({&letter, 1});
-  });
+  const auto isError = [](char letter) { return haveErrors({&letter, 1}); };
+  const auto error = std::ranges::find_if(options.outputs, isError);
   if (!options.sphere.glare.wanted && !options.sphere.everyDirection && !haveStandardErrors(color) &&
       error != options.outputs.end())
     throw rad::Error(fmt::format(
@@ -293,13 +296,9 @@ void checkIrradiance(Options& options) {
   options.irradiance = options.irradianceAtPoint ? IrradianceAt::point
                        : options.irradianceAtHit ? IrradianceAt::surface
                                                  : IrradianceAt::none;
-  const auto uses = [&](std::string_view letters) {
-    return options.outputs.find_first_of(letters) != std::string::npos;
-  };
-  if (options.irradiance != IrradianceAt::none) {
-    if (options.treeOutputs.empty() && !uses("veVrRxXlnW"))
-      throw rad::Error("-I+ and -i+ options require some value output");
-  }
+  if (options.irradiance != IrradianceAt::none && options.treeOutputs.empty() &&
+      options.outputs.find_first_of("veVrRxXlnW") == std::string::npos)
+    throw rad::Error("-I+ and -i+ options require some value output");
   for (const char letter : options.outputs) {
     if (options.sphereMode) break;
     if (letter == 'V' || letter == 'W') options.messages.remarks.push_back("-oVW options require trace mode");
@@ -577,6 +576,7 @@ std::vector<UsedOption> parseCompanion(std::span<const std::string> commandLine,
   splitTree(options);
   if (answers) makeBins(options);
   checkLetters(options);
+  if (answers && given.has("-o")) remarkOnLetters(options);  // not for the API, which returns zones anyway
   if (answers) checkColorOutput(options);
   checkIrradiance(options);
   checkTogether(options, given.has("-Sx"));

@@ -219,18 +219,18 @@ void ModifierBuilder::warnOfExcess(PrimitiveId i, const Material& material, Modi
   if (!excess) return;
   for (; next != kNone; next = scene_.modifiers[next].next)
     if (std::holds_alternative<Pattern>(scene_.modifiers[next].content)) return;
-  const std::string text =
-      fmt::format("{} {:g} is above {:.3g}, so that more light leaves the surface than arrives",
-                  excess->argument, excess->value, excess->most);
-  warnOnce(i, text);
+  warnOnce(i, fmt::format("{} {:g} is above {:.3g}, so that more light leaves the surface than arrives",
+                          excess->argument, excess->value, excess->most));
 }
 
-// Warns of a source with negative radiance: rays that hit it return the radiance, but it lights nothing.
+// Warns of a source with negative radiance. It is not sampled if no channel is above 0; glow without reach is
+// found by rays in any case.
 void ModifierBuilder::warnOfNegativeLight(PrimitiveId i, const Material& material) {
   const std::optional<Radiance> radiance = sourceRadiance(material);
-  if (!radiance || maxChannel(radiance->color) > 0 || !(minChannel(radiance->color) < 0)) return;
-  if (const auto* glow = std::get_if<Glow>(&material); glow && glow->reach <= 0) return;
-  warnOnce(i, "negative radiance: it is seen, but lights nothing");
+  if (!radiance || !(minChannel(radiance->color) < 0)) return;
+  const bool found = std::holds_alternative<Glow>(material) && reachOf(material) <= 0;
+  warnOnce(i, found || isSampled(material) ? "negative radiance: it makes negative light"
+                                           : "negative radiance: it is seen, but lights nothing");
 }
 
 void ModifierBuilder::warnOnce(PrimitiveId i, const std::string& text) {

@@ -1,11 +1,6 @@
 #include "shade/function_reflection.h"
 
 namespace rsphere {
-namespace {
-
-Coefficient coefficientOf(const std::array<double, 3>& v) { return Coefficient(Color(v[0], v[1], v[2])); }
-
-}  // namespace
 
 FunctionScattering scatter(const FunctionScatterer& m, const Interaction& at) {
   FunctionScattering s;
@@ -34,9 +29,9 @@ FunctionScattering scatter(const BrtdFunction& m, const Interaction& at) {
 }
 
 SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
-                            const std::array<double, 3>& coefficient) {
+                            const std::array<double, 3>& c) {
   const bool straight = !isPerturbed(at) || (at.kinds & (kShadow | kAmbient));
-  SharpPath path{at.direction, coefficientOf(coefficient), kTransmitted, false};
+  SharpPath path{at.direction, Coefficient(Color(c[0], c[1], c[2])), kTransmitted, false};
   path.lengthCounts = straight && brightness(s.diffuseReflection) + brightness(s.diffuseTransmission) < 1;
   if (!straight && !at.smoothed) {
     const V3d bent = at.direction - at.perturbation;
@@ -47,9 +42,9 @@ SharpPath sharpTransmission(const FunctionScattering& s, const Interaction& at,
 }
 
 SharpPath sharpReflection(const FunctionScattering& s, const Interaction& at,
-                          const std::array<double, 3>& coefficient) {
-  return {(at.direction + 2 * s.cosine * s.normal).normalized(), coefficientOf(coefficient), kReflected,
-          at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))};
+                          const std::array<double, 3>& c) {
+  return {(at.direction + 2 * s.cosine * s.normal).normalized(), Coefficient(Color(c[0], c[1], c[2])),
+          kReflected, at.flat && (!isPerturbed(at) || (at.kinds & kAmbient))};
 }
 
 }  // namespace rsphere

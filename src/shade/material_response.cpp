@@ -128,8 +128,13 @@ ProgrammedScattering response(const BrtdFunction& material, MaterialHit& hit) {
   const FunctionPoint point = pointOf(hit, s);
   const SurfaceFunctions& functions = hit.functions();
   s.sharp.add(sharpTransmission(s, at, functions.transmission(material.functions, point, hit.scratch())));
-  if (!hit.arrival().isShadow())
+  if (!hit.arrival().isShadow()) {
     s.sharp.add(sharpReflection(s, at, functions.reflection(material.functions, point, hit.scratch())));
+    Color sum = s.diffuseReflection + s.diffuseTransmission;
+    for (const SharpPath& path : s.sharp) sum += path.coefficient.color;
+    if (maxChannel(sum) > 1 + kRoundedArgument)
+      functions.warn(material.functions, "reflectance and transmittance add up to more than 1");
+  }
   return {s, at, point, functions, hit.scratch(), material.functions};
 }
 

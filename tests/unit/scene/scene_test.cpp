@@ -90,12 +90,19 @@ TEST(Scene, SourcesOfNegativeRadianceAreWarnedOf) {
     EXPECT_EQ(warnings[0],
               fmt::format("room.rad:1: {} \"l\": negative radiance: it is seen, but lights nothing", type));
   }
-  // Light of some colors, none at all, and glow that is no source are as usual.
-  for (const char* fine : {"light l 0 0 3 1 -1 0", "light l 0 0 3 0 0 0", "glow l 0 0 4 -1 -1 -1 0"}) {
+  // A channel above 0 lets the source be sampled, and rays find glow without reach. No light is as usual.
+  for (const char* dark :
+       {"light l 0 0 3 1 -1 0", "spotlight l 0 0 7 -1 1 1 90 0 0 -1", "glow l 0 0 4 -1 -1 -1 0"}) {
     std::vector<std::string> warnings;
-    sceneOf(std::string("void ") + fine + "\nl sphere s\n0\n0\n4 0 0 0 1\n", &warnings);
-    EXPECT_TRUE(warnings.empty()) << fine;
+    sceneOf(std::string("void ") + dark + "\nl sphere s\n0\n0\n4 0 0 0 1\n", &warnings);
+    ASSERT_EQ(warnings.size(), 1u) << dark;
+    EXPECT_NE(warnings[0].find("room.rad:1: "), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("\"l\": negative radiance: it makes negative light"), std::string::npos)
+        << warnings[0];
   }
+  std::vector<std::string> warnings;
+  sceneOf("void light l 0 0 3 0 0 0\nl sphere s\n0\n0\n4 0 0 0 1\n", &warnings);
+  EXPECT_TRUE(warnings.empty());
 }
 
 // A message about the arguments says that the type has a reader.
