@@ -82,6 +82,16 @@ FAULTS = (
     (1, "grid panel ceiling drop 1e4", 2, "a luminaire is far from the scene"),
     (1, "grid panel", 2, "grid needs the name of a polygon"),
     (2, "# nothing is wanted", None, "there is no goals"),
+    (0, f"luminaire {'x' * 101} panel.ies", 1, 'the name "x{20}\\.\\.\\." has more than 100 characters'),
+    (2, f"scene {'x' * 5000}\nilluminance desk1 50", 3, "has more than 100 characters"),
+    (0, "maintenance .8\nmaintenance .5\n" + GOOD[0], 2, "maintenance is in line 1, too; take one out"),
+    (2, "dimming yes\nilluminance desk1 50\ndimming no", 5, "dimming is in line 3, too"),
+    (2, "apart 1\nmost 3\nrows\nmost 4", 6, "most is in line 4, too"),
+    (2, "illuminance desk1 50 uniformity .6 uniformity .2", 3, "uniformity is given twice"),
+    (1, "grid panel ceiling spacing 3 drop .1 drop .2", 2, "drop is given twice"),
+    (2, "illuminance desk1 0 uniformity .6", 3, "a uniformity needs an illuminance above 0 lx"),
+    (2, "sensor desk1 1 1 1 0 0 1", 3, '"desk1" is the name of a surface; goals could mean either'),
+    (2, "eye floor 1 1 1.2", 3, '"floor" is the name of a surface'),
 )
 
 

@@ -155,6 +155,13 @@ class Formats(InAFolder):
             (change(">strip.ldt<", ">product.xml<"), {}, 'has no file "ldc/product.xml"'),
             (change("<RatedLuminousFlux>500", "<RatedLuminousFlux>1e10"), {}, "RatedLuminousFlux must be from"),
             (change('fixedLightSourceId="s1"', 'fixedLightSourceId="s2"'), {}, 'no FixedLightSource "s2"'),
+            (PRODUCT, {"Product.XML": PRODUCT}, 'has two files "Product.XML", of which either might be read; take one out'),
+            (PRODUCT, {"LDC/strip.ldt": eulumdat()}, 'has two files "LDC/strip.ldt"'),
+            (change("<RatedLuminousFlux>500", "<RatedLuminousFlux>1e-9"), {}, r"product\.xml:15: with all factors, the largest intensity is 3\.59e-10 cd; it must be from"),
+            (change("<FixedLightEmitter>", '<FixedLightEmitter emergencyBehaviour="EmergencyOnly">'), {}, r'product\.xml:15: the emitter "e1" is for emergencies alone; choose another'),
+            (change("<FixedLightEmitter>", '<FixedLightEmitter><PhotometryReference photometryId="p2"/></FixedLightEmitter><FixedLightEmitter>'), {},
+             r'product\.xml:15: the emitter "e1" has 2 light emitters; one is read: take the others out'),
+            (change('<PhotometryFileReference fileId="ldt"/>', '<PhotometryReference photometryId="p1"/>'), {}, "product.xml:10: this Photometry has no PhotometryFileReference"),
             (change('photometryId="p1"/>', 'photometryId="p2"/>'), {"ldc/box.ies": BOX.replace("TILT=NONE", "TILT=/etc/passwd")}, "box.ies:2: TILT=/etc/passwd: .*same folder"),
             (change('photometryId="p1"/>', 'photometryId="p2"/>'), {"ldc/box.ies": BOX.replace("TILT=NONE", "TILT=strip.ldt")}, "box.ies:2: TILT=strip.ldt: .*cannot be read"),
         ):
@@ -178,6 +185,34 @@ class Formats(InAFolder):
         for name in ("/etc/passwd", "../../etc/passwd", "..", "C:\\tilt.txt", "a/../lamp.ies"):
             self.refused(self.file(BOX.replace("TILT=NONE", f"TILT={name}")), "lamp.ies:2: .*in the same folder")
         self.refused(self.file(BOX.replace("TILT=NONE", "TILT=lamp.ies")), "lamp.ies:1: the lamp's position")  # of itself
+        os.symlink("/etc/passwd", os.path.join(self.folder.name, "link.txt"))
+        self.refused(self.file(BOX.replace("TILT=NONE", "TILT=link.txt")), "lamp.ies:2: TILT=link.txt: the file of tilt factors is a link to another folder")
+
+    def test_pipes(self):
+        """They were waited for without end."""
+        os.mkfifo(os.path.join(self.folder.name, "pipe.ies"))
+        self.refused(os.path.join(self.folder.name, "pipe.ies"), "pipe.ies: is a pipe or a device, and a luminaire is read twice; write it to a file")
+        self.refused(self.file(BOX.replace("TILT=NONE", "TILT=pipe.ies")), "lamp.ies:2: TILT=pipe.ies: is a pipe or a device, not a file of tilt factors")
+        self.refused("/dev/zero", "is a pipe or a device")
+
+    def test_emergency_beside_the_usual_light(self):
+        """Its photometry was read if it came first."""
+        other = '<FixedLightEmitter emergencyBehaviour="EmergencyOnly"><PhotometryReference photometryId="p2"/></FixedLightEmitter>'
+        found = read_luminaire(self.gldf(PRODUCT.replace('<Emitter id="e1">', '<Emitter id="e1">' + other)))
+        self.assertAlmostEqual(found.lumens(), 500, delta=1)
+
+    def test_names(self):
+        """Control characters of a name went to the terminal and into drawings, and names of megabytes into scenes."""
+        for file in (self.file(BOX.replace("TILT=NONE", "[MANUFAC] a\x1b[31mb" + "m" * 1_000_000 + "\nTILT=NONE")),
+                     self.gldf(PRODUCT.replace(">maker<", ">a\u202e[31mb" + "m" * 1_000_000 + "<"))):
+            name = read_luminaire(file).name
+            self.assertEqual((name[:8], len(name)), ("a?[31mbm", 100))
+
+    def test_encrypted(self):
+        with open(self.gldf(), "rb") as stream:
+            data = bytearray(stream.read())
+        data[data.index(b"PK\1\2") + 8] |= 1
+        self.refused(self.file(bytes(data), "lamp.gldf"), '"product.xml" cannot be unpacked: it is encrypted; GLDF files are not')
 
     def test_each_part_of_an_archive_replaced(self):
         """Whatever bytes are wrong: a fault of one line, or a luminaire."""
@@ -225,6 +260,8 @@ class Formats(InAFolder):
             (text.replace(">100<", ">1e300<"), "intensity must be from 0"),
             (text.replace('h="90"', 'h="70"'), "horizontal angles from 0 to 70 are none of"),
             (TM33.replace("DATA", intensities({0: (0, 0, 0)})), "all intensities are 0"),
+            (text.replace("</LuminousIntensity>", "</LuminousIntensity><LuminousIntensity/>"), "Emitter has two LuminousData/LuminousIntensity; take one out"),
+            (text.replace("</Dimensions>", "</Dimensions><Dimensions/>"), "IESTM33-22 has two Luminaire/Dimensions; take one out"),
             (TM33.replace("DATA", ""), "0 horizontal and 0 vertical angles"),
             (text.replace("<Length>1.2", "<Length>x"), "Length must be a number"),
             (text.replace("<Width>.3</Width>", ""), "Dimensions has no Width"),

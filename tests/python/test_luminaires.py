@@ -161,6 +161,7 @@ class Ies(Files):
             (floodlight("A", [-90, -20, 0], [0, 45, 90], lambda *_: 1), 5, "vertical angles of type A must begin at 0 or below and end above, not -90 and 0"),
             (self.changed("7 5 1 1", "7 5 1 3"), 3, "unit of lengths"),
             (self.changed("7 5 1 1", "7 1000000000 1 1"), 3, "horizontal angles must be from"),
+            (self.changed("7 5 1 1", "2000 501 1 1"), 3, "501 x 2000 candela values are more than 1000000; use larger steps"),
             (self.changed("7 5 1 1", "6 5 1 1"), 5, "vertical angles must begin"),
             (self.changed("7 5 1 1", "7.5 5 1 1"), 3, "whole number"),
             (self.changed("7 5 1 1", "-7 5 1 1"), 3, "vertical angles must be from"),

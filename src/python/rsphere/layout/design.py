@@ -13,6 +13,7 @@ from .room import cells_of, names_matching, polygons_named, surface_of
 MOST_CANDIDATES = 20000
 MOST_SCENES = 100
 FAR = 20  # times the size of the scene: what is farther away is in other units
+MOST_OF_NAME = 100  # characters of names that become those of files
 SCENE_SIZES = 0.3, 1e5  # m: others are those of a scene whose units are wrong
 
 
@@ -110,6 +111,13 @@ class Words:
         self.next += 1
         return self.words[self.next - 1]
 
+    def file_name(self):
+        """A name that a part of the names of files will be."""
+        name = self.text("a name")
+        if len(name) > MOST_OF_NAME:
+            raise self.fault(f'the name "{name[:20]}..." has more than {MOST_OF_NAME} characters')
+        return word(name)
+
     def number(self, what, least=-1e9, most=1e9):
         return number(self.text(what), *self.place, what, least, most)
 
@@ -135,6 +143,8 @@ class Words:
             key = self.text(" or ".join(names) if len(names) == 2 else "an option")
             if key not in names:
                 raise self.fault(f'"{key[:40]}" is ' + (f"neither {names[0]} nor {names[1]}" if len(names) == 2 else f"none of {', '.join(names)}"))
+            if key in found:
+                raise self.fault(f"{key} is given twice")
             found[key] = True if key in flags else self.number(f"the {key}", *ranges[key])
             if key in twice and self.more_number():
                 found[key] = [found[key], self.number(f"the {key}", *ranges[key])]
@@ -148,6 +158,8 @@ class Words:
 class Statements:
     """Reads the lines of a file about a room, one function for each first word."""
 
+    ONCE = {"units", "maintenance"}  # first words of lines of which the last one would hold
+
     def __init__(self, file, polygons):
         self.file, self.folder = file, os.path.dirname(file)
         self.polygons = polygons
@@ -155,6 +167,7 @@ class Statements:
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def take_lines(self):
+        lines = {}  # of those that are there once, their numbers
         for index, line in enumerate(lines_of(self.file, "utf-8", "surrogateescape")):
             words = line.split("#")[0].split()
             if not words:
@@ -165,6 +178,8 @@ class Statements:
             if function is None:
                 known = ", ".join(n[5:] for n in dir(self) if n.startswith("read_"))
                 raise taken.fault(f'"{words[0][:40]}" is none of {known}')
+            if words[0] in self.ONCE and lines.setdefault(words[0], index + 1) <= index:
+                raise taken.fault(f"{words[0]} is in line {lines[words[0]]}, too; take one out")
             function(taken)
             taken.end()
 
@@ -189,6 +204,8 @@ class Statements:
 
 class Reader(Statements):
     """Reads a design."""
+
+    ONCE = {*Statements.ONCE, "dimming", "rows", "apart", "most"}
 
     def __init__(self, file, polygons):
         super().__init__(file, polygons)
@@ -219,7 +236,7 @@ class Reader(Statements):
         self.design.maintenance = w.number("the maintenance factor", 0.01, 1)
 
     def read_luminaire(self, w):
-        name = word(w.text("a name"))
+        name = w.file_name()
         try:
             photometry = read_luminaire(os.path.join(self.folder, w.text("a file .ies, .ldt, .gldf or .xml")))
         except Fault as text:
@@ -251,6 +268,8 @@ class Reader(Statements):
                 aims.append(w.unit("the aim"))
             elif key == "turn":
                 turns.append(w.number("the turn", -360, 360))
+            elif key in found:
+                raise w.fault(f"{key} is given twice")
             elif key in options:
                 found[key] = w.number(f"the {key}", *options[key])
                 if key == "spacing":
@@ -320,6 +339,8 @@ class Reader(Statements):
         back = found.pop("back", False)
         if found.get("most", value) < value:
             raise w.fault("most is below the illuminance that is wanted")
+        if "uniformity" in found and not value > 0:
+            raise w.fault("a uniformity needs an illuminance above 0 lx: in the dark it has no value")
         for name in names:
             if name in self.design.eyes:
                 raise w.fault(f"{name} is an eye; goals of eyes are cylindrical and ugr")
@@ -345,6 +366,8 @@ class Reader(Statements):
         name = w.text("a name")
         if name in self.design.sensors or name in self.design.eyes:
             raise w.fault(f'"{name}" is named twice')
+        if any(name in (p.name, p.modifier) for p in self.polygons):
+            raise w.fault(f'"{name[:40]}" is the name of a surface; goals could mean either')
         return name, self.near(w, w.vector("the place"), f'"{name[:40]}"')
 
     def read_sensor(self, w):
@@ -375,7 +398,7 @@ class Reader(Statements):
         self.add_goal(w, "ugr", eye.name, w.number("the limit of UGR", 5, 40))
 
     def read_scene(self, w):
-        name = word(w.text("a name"))
+        name = w.file_name()
         if any(name == s.name for s in self.design.scenes):
             raise w.fault(f'there are two scenes "{name}"')
         if len(self.design.scenes) == MOST_SCENES:

@@ -160,7 +160,7 @@ class Report:
         """Points on the floor by the grid of the standard."""
         sizes = [np.ptp(p.corners[:, :2], axis=0) / self.units for p in self.tasks.floor]
         spacing = spacing or max(standard_spacing(*size) for size in sizes) * self.units
-        found = [cells_of(p, spacing, margin, (self.tasks.file, None))[0] for p in self.tasks.floor]
+        found = [cells_of(p, spacing, margin, self.tasks.place or (self.tasks.file, None))[0] for p in self.tasks.floor]
         return np.concatenate(found)
 
     def floor_grid(self):

@@ -41,9 +41,12 @@ class Tasks:
     eyes: list = field(default_factory=list)  # of design.Eye
     height: float = 1.2  # m: of the grid of eyes above the floor
     spacing: float = None  # of the grid, units of the scene
+    place: tuple = None  # file and line of the grid
 
 
 class TaskReader(Statements):
+    ONCE = {*Statements.ONCE, "eyes"}
+
     def __init__(self, file, polygons):
         super().__init__(file, polygons)
         self.found = Tasks(file)
@@ -86,6 +89,9 @@ class TaskReader(Statements):
         for name in names:
             raised = [Polygon(name, p.modifier, p.corners + found.get("height", 0.0) * (-1 if back else 1) * p.vector() / np.linalg.norm(p.vector()))
                       for p in polygons_named(self.polygons, name, w.place)]
+            if any(name == t.surface.name for t in self.found.tasks):
+                raise w.fault(f"a second task on {name}")
+            self.near(w, raised[0].corners.mean(axis=0), f'the task on "{name[:40]}"')
             surface = surface_of(raised, name, w.place, self.found.units, back, found.get("spacing"), found.get("margin", 0.0))
             self.found.tasks.append(Task(surface, activity, around))
 
@@ -128,6 +134,9 @@ class TaskReader(Statements):
 
     def read_eyes(self, w):
         found = w.options(dict.fromkeys(("height", "spacing"), (1e-9, 1e9)))
+        if found.get("height", 0) > self.high[2] - self.low[2]:
+            raise w.fault(f"eyes at {found['height']:g} are above the scene, whose height is {self.high[2] - self.low[2]:.5g}; is it in the units of the scene?")
+        self.found.place = w.place
         self.found.height = found["height"] / self.found.units if "height" in found else self.found.height
         self.found.spacing = found.get("spacing", self.found.spacing)
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from ..fault import Fault, fault
 from .eulumdat import read_eulumdat
 from .ies import read_ies
+from .intensities import checked_candela
 from .tm33 import read_tm33
 from .xml_file import MOST_BYTES, number_of, root_of, text_of
 
@@ -30,7 +31,11 @@ class Archive:
             raise fault(file, None, f"is not a GLDF file: {error}") from None
         if len(self.zip.infolist()) > MOST_MEMBERS:
             raise fault(file, None, f"has more than {MOST_MEMBERS} files")
-        self.names = {name.lower(): name for name in self.zip.namelist()}
+        self.names = {}
+        for name in self.zip.namelist():
+            if name.lower() in self.names:
+                raise fault(file, None, f'has two files "{name[:80]}", of which either might be read; take one out')
+            self.names[name.lower()] = name
 
     def has(self, name):
         return name.lower() in self.names
@@ -41,6 +46,8 @@ class Archive:
             member = self.zip.getinfo(self.names[name.lower()])
             if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):  # others may ask for gigabytes of memory
                 raise NotImplementedError(f"method {member.compress_type} instead of deflate")
+            if member.flag_bits & 1:
+                raise NotImplementedError("it is encrypted; GLDF files are not")
             with self.zip.open(member) as stream:
                 data = stream.read(MOST_BYTES + 1)
         except KeyError:
@@ -88,6 +95,18 @@ class Product:
             raise variant.fault(self.file, f'the variant "{variant.get("id")}" has no emitter "{name[:40]}"; it has {", ".join(map(str, ids[:12]))}')
         return self.named("Emitter", ids[0] if name is None else name, variant)
 
+    def light_of(self, emitter):
+        """The light emitter of an emitter that is not for emergencies alone."""
+        lights = [e for e in emitter if e.tag in ("FixedLightEmitter", "ChangeableLightEmitter")]
+        usual = [e for e in lights if e.get("emergencyBehaviour") != "EmergencyOnly"]
+        if not lights:
+            raise emitter.fault(self.file, f'the emitter "{emitter.get("id")}" has neither a FixedLightEmitter nor a ChangeableLightEmitter; others are not read')
+        if not usual:
+            raise lights[0].fault(self.file, f'the emitter "{emitter.get("id")}" is for emergencies alone; choose another one, or take out emergencyBehaviour')
+        if len(usual) > 1:
+            raise usual[1].fault(self.file, f'the emitter "{emitter.get("id")}" has {len(usual)} light emitters; one is read: take the others out')
+        return usual[0]
+
     def photometric_file(self, light):
         """The name of the photometric file of a light emitter in the archive, and what reads it."""
         photometry = self.referred(light, "PhotometryReference", "photometryId", "Photometry")
@@ -115,9 +134,7 @@ def read_gldf(file, variant=None, emitter=None):
     product = Product(root_of(archive.read(PRODUCT), f"{file}: {PRODUCT}"), file)
     chosen = product.variant(variant)
     found = product.emitter(chosen, emitter)
-    light = next((e for e in found if e.tag in ("FixedLightEmitter", "ChangeableLightEmitter")), None)
-    if light is None:
-        raise found.fault(product.file, f'the emitter "{found.get("id")}" has neither a FixedLightEmitter nor a ChangeableLightEmitter; others are not read')
+    light = product.light_of(found)
     name, reader, entry = product.photometric_file(light)
     if not archive.has(name):
         raise entry.fault(product.file, f'the archive has no file "{name[:80]}"')
@@ -137,7 +154,8 @@ def read_gldf(file, variant=None, emitter=None):
     factor = flux / measured if flux > 0 and measured > 0 and not read.radiant else 1.0
     if abs(factor - 1) > DIFFERENT:
         notes += (f"the flux of the photometric file is {measured:.0f} lm; that of the emitter holds",)
-    return replace(read, file=file, name=f"{maker} {title}".strip() or read.name, candela=read.candela * factor, watts=watts, notes=notes)
+    candela = checked_candela(read.candela * factor, product.file, light.line)
+    return replace(read, file=file, name=f"{maker} {title}".strip() or read.name, candela=candela, watts=watts, notes=notes)
 
 
 def watts_of(product, light):

@@ -8,6 +8,7 @@ from .intensities import Photometry, checked_angles, checked_candela, unfolded
 from .radiant import UNITS, unit_in
 
 MOST_ANGLES = 3601  # a tenth of a degree, all round
+MOST_VALUES = 1_000_000  # intensities; by half degrees all round there are 260,000
 MOST_TILT_FACTOR = 5  # lamps that are tilted have about as much light; percentages would be larger
 FOOT = 0.3048
 PLANES = 2.0  # degrees between the C planes that stand for types A and B, and at most between their angles of gamma
@@ -70,6 +71,11 @@ def tilt_of(file, value, words):
     if "/" in value or "\\" in value or value in (".", ".."):  # a fault there would print what is in it
         raise fault(file, words.line, f"TILT={value[:40]}: the file of tilt factors must be in the same folder")
     other = os.path.join(os.path.dirname(file), value)
+    beside = os.path.realpath(os.path.dirname(file)), os.path.dirname(os.path.realpath(file))
+    if os.path.islink(other) and os.path.dirname(os.path.realpath(other)) not in beside:
+        raise fault(file, words.line, f"TILT={value[:40]}: the file of tilt factors is a link to another folder")
+    if os.path.exists(other) and not os.path.isfile(other) and not os.path.isdir(other):
+        raise fault(file, words.line, f"TILT={value[:40]}: is a pipe or a device, not a file of tilt factors")
     try:
         tilt_words = Words(other, lines_of(other), 0)
     except Fault as text:
@@ -184,6 +190,8 @@ def read_ies(file, intensity=None):
     multiplier = words.number("the multiplier", 1e-9, 1e9)
     gammas = words.whole("the number of vertical angles", 2, MOST_ANGLES)
     planes = words.whole("the number of horizontal angles", 1, MOST_ANGLES)
+    if gammas * planes > MOST_VALUES:
+        raise fault(file, words.line, f"{planes} x {gammas} candela values are more than {MOST_VALUES}; use larger steps between angles")
     kind = " CBA"[words.whole("the photometric type", 1, 3)]
     metres = FOOT if words.whole("the unit of lengths (1 feet, 2 metres)", 1, 2) == 1 else 1.0
     size = [words.number(f"the {what} of the luminous opening", -1e4, 1e4) for what in ("width", "length", "height")]

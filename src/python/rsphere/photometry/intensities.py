@@ -14,6 +14,7 @@ TINY = 0.0005  # m; degrees
 OPENING = 0.002, 8.0  # m: longest sides of luminous openings; others are most likely in other units
 POINT = 0.001  # m: the side that stands for a point in many files
 EFFICACY = 0.1, 500.0  # lm/W: candles have .3, and no lamp has more than 350
+MOST_NAME = 100  # characters; names are those of makers, which nobody has checked
 LARGEST = 1e-6, 1e9  # cd, the least and the most that the largest intensity of a luminaire can be: searchlights have 1e9
 
 
@@ -35,6 +36,9 @@ class Photometry:
     notes: tuple = ()  # what is to be said of the file
     kind: str = "C"  # of the angles in the file: A or B are those of floodlights, which are aimed
     sides: tuple = None  # the heights of the luminous sides that face C0, C90, C180 and C270, where these differ
+
+    def __post_init__(self):
+        self.name = "".join(c if c.isprintable() else "?" for c in self.name[:MOST_NAME])
 
     def intensity(self, directions):
         """cd in directions (..., 3): unit vectors from the luminaire. Linear between the angles of the file."""

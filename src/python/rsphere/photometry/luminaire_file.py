@@ -1,4 +1,5 @@
 """Reads photometric files of all formats."""
+import os
 import warnings
 
 from ..fault import fault, lines_of
@@ -32,6 +33,8 @@ def read_any(file, intensity, variant, emitter):
 
     intensity: the unit of an IES file that does not say it (cd, W/sr, mW/sr, uW/sr). variant, emitter: ids in a GLDF file.
     """
+    if os.path.exists(file) and not os.path.isdir(file) and not os.path.isfile(file):  # a pipe might never end
+        raise fault(file, None, "is a pipe or a device, and a luminaire is read twice; write it to a file")
     ending = file.lower().rsplit(".", 1)[-1]
     first = begins(file, 64).removeprefix(b"\xef\xbb\xbf").lstrip()
     gldf = ending == "gldf" or first.startswith(ZIP)

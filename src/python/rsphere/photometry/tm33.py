@@ -6,7 +6,7 @@ import numpy as np
 from ..fault import fault, number
 from .ies import MOST_ANGLES, all_round
 from .intensities import Photometry, checked_candela
-from .xml_file import number_of, root_of, text_of
+from .xml_file import number_of, only, root_of, text_of
 
 ROOTS = ("IESTM33", "IESTM33-22", "LuminaireOpticalData")
 INTENSITIES = (("LuminousData/LuminousIntensity", False), ("RadiantData/RadiantIntensity", True))
@@ -37,7 +37,7 @@ def read_tm33(file):
     emitter = emitters[0]
     if number_of(emitter, "Quantity", file, 0, 1e6, 1.0) != 1:
         raise emitter.find("Quantity").fault(file, "the luminaire has several emitters of this kind; one is read: give it the light of all, and Quantity 1")
-    element, radiant = next(((emitter.find(path), radiant) for path, radiant in INTENSITIES if emitter.find(path) is not None), (None, False))
+    element, radiant = next(((found, radiant) for path, radiant in INTENSITIES if (found := only(emitter, path, file)) is not None), (None, False))
     if element is None:
         raise emitter.fault(file, f"the emitter has neither {INTENSITIES[0][0]} nor {INTENSITIES[1][0]}; its intensities are needed")
     for tag in ("AbsolutePhotometry", "Absolute"):
@@ -74,9 +74,9 @@ def grid_of(element, file):
 
 def opening_of(root, emitter, file):
     """The shape and the size (m) of the luminous area below, or else of the luminaire. Its length is across C0."""
-    area, deep = emitter.find("EmissionAreas/BottomFace/BottomArea"), 0.0
+    area, deep = only(emitter, "EmissionAreas/BottomFace/BottomArea", file), 0.0
     if area is None:
-        area = root.find("Luminaire/Dimensions")
+        area = only(root, "Luminaire/Dimensions", file)
     if area is None:
         return "point", (SMALLEST,) * 3
     length, width = (number_of(area, tag, file, 0, 100) for tag in ("Length", "Width"))

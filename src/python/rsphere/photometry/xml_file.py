@@ -52,6 +52,14 @@ def root_of(data, file):
         raise fault(file, None, f"is not XML: {error}") from None
 
 
+def only(element, path, file):
+    """The element inside of another, or None. Raises Fault if there are two, of which neither can be known to hold."""
+    found = element.findall(path)
+    if len(found) > 1:
+        raise found[1].fault(file, f"{element.tag} has two {path}; take one out")
+    return found[0] if found else None
+
+
 def text_of(element, path, default=""):
     found = element.find(path)
     return default if found is None or found.text is None else found.text.strip()
@@ -59,9 +67,7 @@ def text_of(element, path, default=""):
 
 def number_of(element, path, file, least, most, default=None):
     """The number of an element inside of another. Raises Fault if it is none, or not there although there is no default."""
-    text, found = text_of(element, path), element.find(path)
-    if len(element.findall(path)) > 1:
-        raise element.findall(path)[1].fault(file, f"{element.tag} has two {path}; take one out")
+    text, found = text_of(element, path), only(element, path, file)
     if not text and default is not None:
         return default
     if found is None:
