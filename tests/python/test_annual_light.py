@@ -516,6 +516,22 @@ class Closed(InAFolder):
         light = self.light(BLACK + "black sphere s 0 0 4 0 0 0 9\n", [[0, 0, 0, 0, 0, 1]], list(clear_days([(m, d) for m in range(1, 13) for d in range(1, 29)])), estimates=2)
         self.assertIn("which changes the light of an hour with sun by less than 0.00% (rms, twice the noise), and that of all by +0.00% +- 0.00%", " ".join(light.notes()))
 
+    def test_a_sensor_inside_of_furniture(self):
+        """A warning says where it is, since verdicts count it: a box with a hole in its lid lets in a little light."""
+        with self.command("-e", "2", "--spacing", "4", stderr=subprocess.DEVNULL) as run:
+            run.communicate()  # this has written w.wea and room.rad
+        with open(os.path.join(self.folder.name, "room.rad"), encoding="utf-8") as stream:
+            room = stream.read()
+        furnished = self.file(room + "".join(f"black polygon {name} 0 0 {3 * corners.count(',') + 3} {corners.replace(',', ' ')}\n" for name, corners in (
+            ("s", "2.1 2.1 0,2.9 2.1 0,2.9 2.1 2,2.1 2.1 2"), ("n", "2.9 2.9 0,2.1 2.9 0,2.1 2.9 2,2.9 2.9 2"),
+            ("w", "2.1 2.9 0,2.1 2.1 0,2.1 2.1 2,2.1 2.9 2"), ("e", "2.9 2.1 0,2.9 2.9 0,2.9 2.9 2,2.9 2.1 2"),
+            ("lid", "2.1 2.1 2,2.9 2.1 2,2.9 2.9 2,2.1 2.9 2,2.1 2.1 2,2.4 2.4 2,2.4 2.6 2,2.6 2.6 2,2.6 2.4 2,2.4 2.4 2"))), "box.rad")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        run = run_here([built("rsphere-annual"), "w.wea", furnished, "-d", "1024", "-e", "2", "--spacing", "1"])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("1 of 16 get less than 2% of the mean light in the whole year, such as at 2.5 2.5 0.85:", run.stderr)
+
     def test_accuracy_adds_estimates(self):
         """Until noise turns no verdict, or the light of the year at a sensor is known as well as asked for."""
         found = {}

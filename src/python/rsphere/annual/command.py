@@ -15,7 +15,7 @@ from ..progress import PROGRESS
 from . import outside
 from .alpha_opic import melanopic_year, quantities_of_eyes, verdicts_of_eyes
 from .glare import Glare
-from .light import ESTIMATES, Light, check_sky, light_of_coefficients, occupied_hours
+from .light import DIM, ESTIMATES, Light, check_sky, light_of_coefficients, occupied_hours
 from .matrix import read_coefficients
 from .passes import Settings
 from .report import Report
@@ -280,9 +280,13 @@ def light_of_scene(given, weather, polygons, notes):
             notes.append("Interrupted: there is no glare.")
     for name in light.idle:
         warn("--shades " + name, "lowered, they change the light at no sensor: is this the window, and are its blinds in front of it?")
-    dark = int((light.year.open.sum(axis=(0, 2)) == 0).sum())
-    if dark:
-        warn("sensors", f"{dark} of {len(sensors)} get no light in the whole year: they may be inside of something; a list of the others (--sensors) leaves them out")
+    received = light.year.open.sum(axis=(0, 2))
+    dim = np.flatnonzero(received <= DIM * received.mean())
+    if len(dim):
+        x, y, z = sensors[dim[len(dim) // 2]][:3]
+        light_there = f"less than {DIM:.0%} of the mean light" if received[dim].any() else "no light"
+        warn("sensors", f"{len(dim)} of {len(sensors)} get {light_there} in the whole year, such as at {x:g} {y:g} {z:g}: "
+             "they may be inside of something; a list of the others (--sensors) leaves them out")
     notes += light.notes()
     return light, sensors, planes, eyes, glare
 
