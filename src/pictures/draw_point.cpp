@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/colorimetry.h"
+#include "base/scrambled_sequence.h"
 #include "image/picture_formats.h"
 #include "pictures/pixel_tracer.h"
 #include "pictures/tuning.h"
@@ -33,6 +34,10 @@ const Smoothing kOfGloss{OfPictures::kFinePasses, 0,   0, OfPictures::kSameGloss
 // they differ visibly from their neighbors.
 const Smoothing kOfDirect{1, OfPictures::kFinePasses, OfPictures::kSameLight, kSameNormal, OfPictures::kNear};
 
+// Steps from a pixel to itself and its neighbors, the nearest first.
+constexpr int kNeighbors[9][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1},
+                                  {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+
 constexpr double kTracingShare = .85;  // of the time of a picture; for progress reports only
 
 // The seeds of a picture's random numbers, each named after its use.
@@ -47,8 +52,9 @@ class PictureStreams {
   uint64_t direct(size_t pixel, int repeat) const {
     return mixBits(middle(pixel) + 128 + static_cast<uint64_t>(repeat));
   }
-  // around: index in OfPictures::kAround.
-  uint64_t around(size_t pixel, size_t around) const { return mixBits(middle(pixel) + 64 + around); }
+  uint64_t places(size_t pixel) const { return mixBits(middle(pixel) + 63); }
+  // place: below OfPictures::kMostRays.
+  uint64_t around(size_t pixel, size_t place) const { return mixBits(middle(pixel) + 64 + place); }
 
  private:
   uint64_t seed_;
@@ -158,7 +164,8 @@ class RaysOfPixel {
  public:
   RaysOfPixel(const ToneCurve& curve, bool forScreen) : curve_(curve), forScreen_(forScreen) {}
 
-  void add(const V3d& value) {
+  // direct: the direct light of a ray that hits the surface in the middle of the pixel.
+  void add(const V3d& value, const std::optional<V3d>& direct) {
     const V3d shown = curve_.shown(value);
     for (int c = 0; c < 3; ++c) {
       sum_[c] += forScreen_ ? shown[c] : std::max(0., value[c]);
@@ -166,7 +173,13 @@ class RaysOfPixel {
       brightest_[c] = std::max(brightest_[c], sRgb(shown[c]));
     }
     ++count_;
+    if (!direct) return;
+    ++ofOneSurface_;
+    dimmest_ = std::min(dimmest_, direct->length());
+    strongest_ = std::max(strongest_, direct->length());
   }
+  bool areOfOneSurface() const { return ofOneSurface_ == count_; }
+  bool crossShadow() const { return strongest_ - dimmest_ > OfPictures::kSameLight * strongest_; }
   bool differ() const {
     const V3d range = brightest_ - darkest_;
     return std::max({range.x, range.y, range.z}) > OfPictures::kVisible;
@@ -181,7 +194,8 @@ class RaysOfPixel {
   const ToneCurve& curve_;
   bool forScreen_;
   V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
-  int count_ = 0;
+  double dimmest_ = kFarAway, strongest_ = 0;  // direct light
+  int count_ = 0, ofOneSurface_ = 0;
 };
 
 // Removes the noise of soft shadows. Differences are judged relative to all diffuse light, as the eye
@@ -194,8 +208,17 @@ void smoothDirect(Pixels& pixels) {
   for (size_t i = 0; i < light.size(); ++i) light[i] -= indirect[i];
 }
 
-// Marks the pixels in soft shadows whose direct light differs from that of nearby pixels by more than
-// smoothing may remove.
+// Whether the direct light of two pixels that show one surface differs by more than smoothing may remove.
+bool isShadowBetween(const Pixels& pixels, size_t here, size_t there) {
+  if (!pixels.middles[here].sharesDirect || !pixels.middles[there].sharesDirect ||
+      !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
+    return false;
+  const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
+                   b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
+  return apart.length() > OfPictures::kSameLight * (a + b).length() / 2;
+}
+
+// Marks the pixels in and beside soft shadows whose direct light may be noisy.
 std::vector<bool> noisyShadows(const Pixels& pixels) {
   const int width = pixels.seen.width, height = pixels.seen.height;
   std::vector<bool> marked(pixels.middles.size(), false);
@@ -203,17 +226,11 @@ std::vector<bool> noisyShadows(const Pixels& pixels) {
     if (row >= height || (column >= width && !pixels.seen.wraps)) return;
     const size_t there =
         static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
-    if (!pixels.middles[there].sharesDirect ||
-        !mayShare(pixels.seen.pixels[here], pixels.seen.pixels[there], kOfDirect))
-      return;
-    const Imath::V3f a = pixels.middles[here].direct + pixels.indirect.light[here],
-                     b = pixels.middles[there].direct + pixels.indirect.light[there], apart = b - a;
-    if (apart.length() > OfPictures::kSameLight * (a + b).length() / 2) marked[here] = marked[there] = true;
+    if (isShadowBetween(pixels, here, there)) marked[here] = marked[there] = true;
   };
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
       const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
-      if (!pixels.middles[here].sharesDirect) continue;
       for (int step = 1; step <= 2; ++step) {
         compare(here, column + step, row);
         compare(here, column, row + step);
@@ -352,42 +369,69 @@ class Painter {
     return column % sharing_ == chosen % sharing_ && row % sharing_ == chosen / sharing_;
   }
 
-  // Traces the ray at offset kAround[place] of a pixel, and adds the shared components of nearby pixels.
-  // Empty outside the rim, and where the ray hits a small source.
-  std::optional<V3d> around(const Pixels& pixels, int column, int row, size_t place) {
-    const double x = column + .5 + OfPictures::kAround[place][0],
-                 y = row + .5 + OfPictures::kAround[place][1];
+  // Where in a pixel its rays are: at offsets kAround from its middle, and all over it.
+  Imath::V2d placeOf(size_t pixel, size_t place) const {
+    constexpr size_t kGiven = OfPictures::kAround.size();
+    if (place < kGiven)
+      return Imath::V2d(.5 + OfPictures::kAround[place][0], .5 + OfPictures::kAround[place][1]);
+    Random rest(0);  // not used
+    ScrambledPoint even(static_cast<uint32_t>(place - kGiven), streams_.places(pixel), rest);
+    const double x = even.uniform();
+    return Imath::V2d(x, even.uniform());
+  }
+
+  // Traces a ray through a place in a pixel, and adds it with the shared components of nearby pixels. Adds
+  // none outside the rim, and where the ray hits a small source.
+  void addRay(const Pixels& pixels, int column, int row, size_t place, RaysOfPixel& rays) {
+    const Imath::V2d in = placeOf(at(column, row), place);
     const uint64_t seed = streams_.around(at(column, row), place);
-    auto sample = look(x, y, seed, PixelParts::restAlone);
+    auto sample = look(column + in.x, row + in.y, seed, PixelParts::restAlone);
+    std::optional<V3d> direct;
     if (sample && sample->seen.material != kNone) {
-      if (const auto pixel = alike(pixels, *sample, column, row)) return pixels.complete(*sample, *pixel);
-      sample = look(x, y, seed, PixelParts::all);
+      if (const auto pixel = alike(pixels, *sample, column, row)) {
+        if (sample->sharesDirect && *pixel == at(column, row)) direct = sample->direct;
+        return rays.add(pixels.complete(*sample, *pixel), direct);
+      }
+      sample = look(column + in.x, row + in.y, seed, PixelParts::all);
     }
-    return sample ? std::optional(sample->value()) : std::nullopt;
+    if (sample) rays.add(sample->value(), direct);
   }
 
   V3d average(const Pixels& pixels, int column, int row, RaysOfPixel rays) {
     const size_t pixel = at(column, row);
-    if (pixels.middles[pixel].isTraced) rays.add(pixels.complete(pixels.own(pixel), pixel));
-    for (size_t place = 0; place < OfPictures::kAround.size(); ++place) {
-      if (place == OfPictures::kCorners && !rays.differ()) break;
-      if (const auto value = around(pixels, column, row, place)) rays.add(*value);
+    if (pixels.middles[pixel].isTraced)
+      rays.add(pixels.complete(pixels.own(pixel), pixel), V3d(pixels.middles[pixel].direct));
+    const bool byShadow = isByShadow(pixels, column, row);
+    for (size_t place = 0; place < OfPictures::kMostRays; ++place) {
+      if (place == OfPictures::kCorners && !byShadow && !rays.differ()) break;
+      if (place == OfPictures::kAround.size() && !(byShadow && rays.areOfOneSurface())) break;
+      if (place == OfPictures::kByShadows && !rays.crossShadow()) break;
+      addRay(pixels, column, row, place, rays);
     }
     return rays.mean().value_or(pixels.value(pixel));
   }
 
+  // Empty outside the picture.
+  std::optional<size_t> pixelAt(int column, int row) const {
+    if (map_.wraps()) column = (column + map_.width()) % map_.width();
+    if (column < 0 || row < 0 || column >= map_.width() || row >= map_.height()) return std::nullopt;
+    return at(column, row);
+  }
+
+  // Whether the edge of a shadow passes a pixel, or is between it and the next one.
+  bool isByShadow(const Pixels& pixels, int column, int row) const {
+    for (const auto& step : kNeighbors)
+      if (const auto next = pixelAt(column + step[0], row + step[1]))
+        if (isShadowBetween(pixels, at(column, row), *next)) return true;
+    return false;
+  }
+
   // The nearest pixel to this column and row, within one pixel, that shows the surface of the sample.
   std::optional<size_t> alike(const Pixels& pixels, const PixelSample& sample, int column, int row) const {
-    constexpr int kOrder[9][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1},
-                                  {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
-    for (const auto& step : kOrder) {
-      int x = column + step[0];
-      const int y = row + step[1];
-      if (map_.wraps()) x = (x + map_.width()) % map_.width();
-      if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) continue;
-      const size_t pixel = at(x, y);
-      if (mayShare(sample.seen, pixels.seen.pixels[pixel], kOfIndirect) &&
-          sample.sharesGloss == pixels.middles[pixel].sharesGloss)
+    for (const auto& step : kNeighbors) {
+      const auto pixel = pixelAt(column + step[0], row + step[1]);
+      if (pixel && mayShare(sample.seen, pixels.seen.pixels[*pixel], kOfIndirect) &&
+          sample.sharesGloss == pixels.middles[*pixel].sharesGloss)
         return pixel;
     }
     return std::nullopt;

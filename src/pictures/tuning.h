@@ -69,6 +69,11 @@ struct Pictures {
                                                                     {1 / 3., 0},
                                                                     {0, 1 / 3.}}};
   static constexpr size_t kCorners = 4;
+  // Rays up to which pixels beside the edge of a shadow on one surface are traced, and those whose direct
+  // light differs: chosen by experiment. The half-shadow of the sun is about as wide as a pixel and thirty
+  // times as bright as a floor beside it, so that the noise of nine rays frays its edge
+  // (2026-11-30-pictures.txt).
+  static constexpr size_t kByShadows = 16, kMostRays = 40;
   // Rows are traced in this number of sweeps, each of which skips rows evenly. All sweeps then take about the
   // same time, so that progress reports are right. It does not affect the picture.
   static constexpr int kSweeps = 16;
