@@ -298,18 +298,28 @@ class Goals(unittest.TestCase):
 
     def test_names_of_desks_keep_clear_of_luminaires(self):
         """The number of a spot was printed over "desk1" in the drawing."""
-        from rsphere.layout.drawing import free_corner
+        from rsphere.layout.drawing import free_place
 
         desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
-        self.assertEqual(free_corner(desk, "desk1", 10, [], []), (94, 246))
-        self.assertEqual(free_corner(desk, "desk1", 10, [(0, 0, 20, 20)], []), (94, 246), "far away")
-        x, y = free_corner(desk, "desk1", 10, [(80, 232, 110, 260)], [])
+        self.assertEqual(free_place(desk, "desk1", 10, [], []), (94, 246))
+        self.assertEqual(free_place(desk, "desk1", 10, [(0, 0, 20, 20)], []), (94, 246), "far away")
+        x, y = free_place(desk, "desk1", 10, [(80, 232, 110, 260)], [])
         self.assertGreater(x, 120)
         self.assertEqual(y, 246)
-        self.assertEqual(free_corner(desk, "desk1", 10, [(80, 232, 210, 260)], []), (94, 212), "all along the lower edge")
+        self.assertEqual(free_place(desk, "desk1", 10, [(80, 232, 210, 260)], []), (94, 212), "all along the lower edge")
         names = []
-        self.assertEqual([free_corner(desk, name, 10, names, []) for name in ("desk1", "pane1")], [(94, 246), (167, 246)], "of two above each other")
-        self.assertEqual(free_corner(desk, "desk1", 10, [(160, 230, 200, 250)], [(100, 240, 101, 241)]), (94, 212), "and of a dot")
+        self.assertEqual([free_place(desk, name, 10, names, []) for name in ("desk1", "pane1")], [(94, 246), (167, 246)], "of two above each other")
+        self.assertEqual(free_place(desk, "desk1", 10, [(160, 230, 200, 250)], [(100, 240, 101, 241)]), (94, 212), "and of a dot")
+
+    def test_names_of_desks_are_beside_dots(self):
+        """With a dot in each corner, one was printed over."""
+        from rsphere.layout.drawing import free_place
+
+        desk = np.array([[90.0, 200.0], [200.0, 200.0], [200.0, 250.0], [90.0, 250.0]])
+        dots = [(x, y, x + 2, y + 2) for x in (100, 180) for y in (205, 240)]
+        left, bottom = free_place(desk, "desk1", 10, [], dots)
+        self.assertEqual(bottom, 246)
+        self.assertTrue(all(x + 2 <= left or x >= left + 31 for x, _, _, _ in dots), left)
 
     def test_control_c(self):
         """It was a traceback."""

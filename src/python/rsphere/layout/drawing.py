@@ -26,18 +26,19 @@ def beside(middle, half, words, others):
     return min(places, key=lambda p: sum(overlap((p[0], p[1] - 9, p[0] + width, p[1]), other) for other in others))
 
 
-def free_corner(corners, words, size, taken, dots):
-    """The label of a surface at that of its corners where it is farthest from what is taken, and then from dots; the lower left one if
-    none is near. taken: rectangles (left, top, right, bottom), to which its own is added."""
+def free_place(corners, words, size, taken, dots):
+    """Where the label of a surface covers nothing that is taken, and then no dots: at a corner, or else along its lower or upper edge;
+    the lower left corner if that is free. taken: rectangles (left, top, right, bottom), to which its own is added."""
     (left, top), (right, bottom), width = corners.min(axis=0), corners.max(axis=0), 0.62 * size * len(words)
-    places = [(x, y) for y in (bottom - 4, top + 12) for x in (left + 4, max(left + 4, right - 2 - width))]
+    last = max(left + 4, right - 2 - width)
+    places = [(x, y) for across in ((left + 4, last), np.arange(left + 8, last, 4)) for y in (bottom - 4, top + 12) for x in across]
 
-    def clearance(place, others):
+    def clearance(place, others, enough):
         x, y = place
         gaps = (np.hypot(max(l - x - width, x - r, 0), max(t - y, y - size - b, 0)) for l, t, r, b in others)
-        return min(8, min(gaps, default=8))
+        return min(enough, min(gaps, default=enough))
 
-    x, y = max(places, key=lambda place: (clearance(place, taken), clearance(place, dots)))
+    x, y = max(places, key=lambda place: (clearance(place, taken, 8), clearance(place, dots, 2)))
     taken.append((x, y - size, x + width, y))
     return x, y
 
@@ -81,7 +82,7 @@ def drawing(design, polygons, candidates, chosen, levels, title, darkest=()):
         over = p.corners[:, 2].min() > min(c.position[2] for c in candidates) - design.units  # beams: what is below shows
         parts.append(shape(corners, 'fill="none" stroke="#b5aea0" stroke-dasharray="3 3"' if over else 'fill="#e4dfd3" stroke="#b5aea0"'))
         if size[0] > 6.2 * len(p.box()) and size[1] > 14:
-            names.append(label(p.box(), 9, *free_corner(corners, p.box(), 9, taken, around_dots), color="#857d6c"))
+            names.append(label(p.box(), 9, *free_place(corners, p.box(), 9, taken, around_dots), color="#857d6c"))
     for surface in sorted(design.surfaces.values(), key=lambda s: -s.area()):  # small ones on top
         for p in surface.polygons:
             corners = to(p.corners)
@@ -91,7 +92,7 @@ def drawing(design, polygons, candidates, chosen, levels, title, darkest=()):
             parts.append(shape(corners, style))
         size = np.ptp(corners, axis=0)
         if size[0] > 6.2 * len(surface.name) and size[1] > 16:
-            names.append(label(surface.name, 10, *free_corner(corners, surface.name, 10, taken, around_dots), color="#3a6343"))
+            names.append(label(surface.name, 10, *free_place(corners, surface.name, 10, taken, around_dots), color="#3a6343"))
     for x, y in dots:
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.3" fill="#999"/>')
     for eye in design.eyes.values():
