@@ -218,27 +218,6 @@ bool isShadowBetween(const Pixels& pixels, size_t here, size_t there) {
   return apart.length() > OfPictures::kSameLight * (a + b).length() / 2;
 }
 
-// Marks the pixels in and beside soft shadows whose direct light may be noisy.
-std::vector<bool> noisyShadows(const Pixels& pixels) {
-  const int width = pixels.seen.width, height = pixels.seen.height;
-  std::vector<bool> marked(pixels.middles.size(), false);
-  const auto compare = [&](size_t here, int column, int row) {
-    if (row >= height || (column >= width && !pixels.seen.wraps)) return;
-    const size_t there =
-        static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column % width);
-    if (isShadowBetween(pixels, here, there)) marked[here] = marked[there] = true;
-  };
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const size_t here = static_cast<size_t>(row) * static_cast<size_t>(width) + static_cast<size_t>(column);
-      for (int step = 1; step <= 2; ++step) {
-        compare(here, column + step, row);
-        compare(here, column, row + step);
-      }
-    }
-  return marked;
-}
-
 class Painter {
  public:
   Painter(const V3d& point, const PixelMap& map, const Transport& transport, const SeenSources& sources,
@@ -320,7 +299,8 @@ class Painter {
   // Traces the direct light of noisy soft shadows several times. smoothLight() could not distinguish such
   // strong noise from the edge of a shadow, and the edge would become ragged.
   void repeatDirect(Pixels& pixels) {
-    const std::vector<bool> marked = noisyShadows(pixels);
+    const std::vector<bool> marked =
+        differing(2, [&](size_t here, size_t there) { return isShadowBetween(pixels, here, there); });
     for (int row = 0; row < map_.height(); ++row)
       for (int column = 0; column < map_.width(); ++column) {
         const size_t pixel = at(column, row);
@@ -338,27 +318,15 @@ class Painter {
       }
   }
 
-  // Marks the pixels that differ visibly from a neighbor.
-  std::vector<bool> uneven(const Raster& raster, const ToneCurve& curve) const {
+  // Marks both pixels of each pair that differs, of those in a row or a column at most `reach` apart.
+  template <typename Differ>
+  std::vector<bool> differing(int reach, const Differ& differ) const {
     std::vector<bool> marked(map_.count(), false);
-    const auto differ = [&](size_t a, size_t b) {
-      const V3d of = curve.shown(valueAt(raster, a)), other = curve.shown(valueAt(raster, b));
-      for (int c = 0; c < 3; ++c)
-        if (std::abs(sRgb(of[c]) - sRgb(other[c])) > OfPictures::kVisible) return true;
-      return false;
-    };
     for (int row = 0; row < map_.height(); ++row)
-      for (int column = 0; column < map_.width(); ++column) {
-        const size_t here = at(column, row);
-        const auto compare = [&](size_t there) {
-          if (differ(here, there)) marked[here] = marked[there] = true;
-        };
-        if (row + 1 < map_.height()) compare(at(column, row + 1));
-        if (column + 1 < map_.width())
-          compare(here + 1);
-        else if (map_.wraps())
-          compare(at(0, row));
-      }
+      for (int column = 0; column < map_.width(); ++column)
+        for (int step = 1; step <= reach; ++step)
+          for (const auto& there : {pixelAt(column + step, row), pixelAt(column, row + step)})
+            if (there && differ(at(column, row), *there)) marked[at(column, row)] = marked[*there] = true;
     return marked;
   }
 
@@ -438,7 +406,12 @@ class Painter {
   }
 
   void refine(const Pixels& pixels, const ToneCurve& curve, bool forScreen, Raster& raster) {
-    const std::vector<bool> marked = uneven(raster, curve);
+    const std::vector<bool> marked = differing(1, [&](size_t here, size_t there) {
+      const V3d one = curve.shown(valueAt(raster, here)), other = curve.shown(valueAt(raster, there));
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(sRgb(one[c]) - sRgb(other[c])) > OfPictures::kVisible) return true;
+      return false;
+    });
     const double all = std::max<double>(1, static_cast<double>(std::ranges::count(marked, true)));
     const RaysOfPixel none(curve, forScreen);
     int done = 0;

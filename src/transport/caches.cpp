@@ -75,15 +75,21 @@ FieldOptions fieldOptions(const RayOptions& o) {
   return field;
 }
 
+LitBy litBy(const Aims& aims, bool byLamps) {
+  if (byLamps || !aims.of<Openings>()) return byLamps ? LitBy::lamps : LitBy::other;
+  const auto* const spots = aims.of<BrightSpots>();
+  return spots && !spots->sunlit().empty() ? LitBy::sun : LitBy::openings;
+}
+
 int raysOfRecord(const RayOptions& o, LitBy by) {
   const int all = o.ambientDivisions + o.ambientSuperSamples;
   if (by == LitBy::other) return all;
-  using Interpolation = tuning::Interpolation;
-  const bool lamps = by == LitBy::lamps;
-  const double rays = lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings;
-  const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
-  const double enough = rays / (o.ambientAccuracy * o.ambientAccuracy);
-  return static_cast<int>(std::clamp<double>(enough, (all + part - 1) / part, all));
+  using Of = tuning::Interpolation;
+  const auto [rays, part] = by == LitBy::lamps ? std::pair(Of::kRaysByLamps, Of::kPartByLamps)
+                            : by == LitBy::sun ? std::pair(Of::kRaysBySun, Of::kPartBySun)
+                                               : std::pair(Of::kRaysByOpenings, Of::kPartByOpenings);
+  return static_cast<int>(
+      std::clamp<double>(rays / (o.ambientAccuracy * o.ambientAccuracy), (all + part - 1) / part, all));
 }
 
 Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Warn& warn) {
@@ -102,7 +108,7 @@ Caches makeCaches(const PreparedScene& prepared, const Aims& aims, const rad::Wa
     // Patches with more rays than -aa is worth take up to a quarter of the time of a picture, for nearly the
     // same error (2026-11-29-pictures.txt).
     if (o.patchesForRecords && isDaylit)
-      ofPatches.rays = std::min<double>(ofPatches.rays, raysOfRecord(o, LitBy::openings));
+      ofPatches.rays = std::min<double>(ofPatches.rays, raysOfRecord(o, litBy(aims, false)));
     caches.coarse = std::make_unique<CoarseSolution>(scene, bounds, ofPatches,
                                                      isDaylit ? aims.of<Openings>()->depth() : 0);
   }

@@ -37,10 +37,7 @@ GatheredLight TracedFieldRays::gather(const GatherSite& site, double nearest, ui
   const InnerPath path = path_.beginGather(seed, site.normal);
   const Root root(t_, site, depth_);
   const auto [x, y] = frame(site.normal);
-  const LitBy by = path.settings.caches.byLamps        ? LitBy::lamps
-                   : path.settings.aims.of<Openings>() ? LitBy::openings
-                                                       : LitBy::other;
-  const int count = raysOfRecord(t_.options(), by);
+  const int count = raysOfRecord(t_.options(), litBy(path.settings.aims, path.settings.caches.byLamps));
   const HemisphereCells cells(count);
   std::vector<Radiance> radiance(cells.count());
   std::vector<double> distance(cells.count(), kFarAway);

@@ -39,16 +39,19 @@ struct Interpolation {
   // the moments of gathered light are then less accurate. Chosen by experiment: raising it by 30% reduces
   // the time by 23% (picture of workshop).
   RSPHERE_TUNED(Interpolation, double, kLeastUpright, .7);
-  // The number of rays of a record of the irradiance cache is this divided by the square of -aa, by lamps
-  // and by openings, but at most -ad plus -as, and at least 1/kPart of that sum. The error of interpolation,
-  // which -aa bounds, is then larger than the noise of the records. Measured at -aa .15: by lamps, half of
-  // the rays take a quarter less time for nearly equal errors; by daylight, 128 instead of 768 rays a
-  // quarter of the time for a median error of 3.5 instead of 2.5% behind blinds, and an equal one below a
-  // skylight (2026-11-27-patches.txt). With 98 instead of 128, a bedroom behind blinds takes .82 of the time
-  // for a median error of 6.8 instead of 5.5% (RADIANCE's: 21%; 2026-11-29-pictures.txt).
+  // The number of rays of a record of the irradiance cache is this divided by the square of -aa, by lamps,
+  // by openings and by sun through openings (LitBy), but at most -ad plus -as, and at least 1/kPart of that
+  // sum. The error of interpolation, which -aa bounds, is then larger than the noise of the records. Measured
+  // at -aa .15: by lamps, half of the rays take a quarter less time for nearly equal errors; by daylight,
+  // 128 instead of 768 rays a quarter of the time for a median error of 3.5 instead of 2.5% behind blinds,
+  // and an equal one below a skylight (2026-11-27-patches.txt). Patches of sun are lamps of their own, close
+  // to surfaces whose light then varies over short distances, so that interpolation errs more than records
+  // of still fewer rays (2026-11-30-pictures.txt). Below a diffuse sky, walls vary little, and the noise of
+  // records is what is seen of them: clouds.
   RSPHERE_TUNED(Interpolation, double, kRaysByLamps, 7.5);
-  RSPHERE_TUNED(Interpolation, double, kRaysByOpenings, 2.2);
-  static constexpr int kPartByLamps = 2, kPartByOpenings = 8;
+  RSPHERE_TUNED(Interpolation, double, kRaysByOpenings, 2.7);
+  RSPHERE_TUNED(Interpolation, double, kRaysBySun, 2.2);
+  static constexpr int kPartByLamps = 2, kPartByOpenings = 6, kPartBySun = 8;
   // Number of rays that estimate the distances around a site (root mean square and harmonic mean): derived.
   // If single distances vary as much as their mean, the mean is known within 25%, half of the step between
   // the sides of cells, which are powers of two. Insensitive.

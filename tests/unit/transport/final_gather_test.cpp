@@ -19,11 +19,16 @@ RayOptions optionsOf(double accuracy, int divisions, int superSamples) {
 }
 
 TEST(RaysOfRecord, AreFewerWhereInterpolationMayErrMore) {
-  for (const LitBy by : {LitBy::lamps, LitBy::openings}) {
-    const bool lamps = by == LitBy::lamps;
-    using tuning::Interpolation;
-    const double enough = (lamps ? Interpolation::kRaysByLamps : Interpolation::kRaysByOpenings) / (.1 * .1);
-    const int part = lamps ? Interpolation::kPartByLamps : Interpolation::kPartByOpenings;
+  using Of = tuning::Interpolation;
+  struct Case {
+    LitBy by;
+    double rays;
+    int part;
+  };
+  for (const auto& [by, rays, part] : {Case{LitBy::lamps, Of::kRaysByLamps, Of::kPartByLamps},
+                                       Case{LitBy::openings, Of::kRaysByOpenings, Of::kPartByOpenings},
+                                       Case{LitBy::sun, Of::kRaysBySun, Of::kPartBySun}}) {
+    const double enough = rays / (.1 * .1);
     const int all = static_cast<int>(1.5 * enough);
     EXPECT_EQ(raysOfRecord(optionsOf(.1, all - 100, 100), LitBy::other), all);
     EXPECT_NEAR(raysOfRecord(optionsOf(.1, all - 100, 100), by), enough, 1);
@@ -40,6 +45,21 @@ TEST(IsLitByLamps, UnlessOnlyRaysFindSomeLight) {
       isLitByLamps(Traced(lamp + "void glow dim 0 0 4 1 1 1 0\ndim sphere ball 0 0 4 0 0 3 1\n").prepared()));
   EXPECT_FALSE(
       isLitByLamps(Traced(lamp + "void light sun 0 0 3 9 9 9\nsun source s 0 0 4 0 0 1 .5\n").prepared()));
+}
+
+TEST(LitBy, SunWhereItShinesThroughOpenings) {
+  RayOptions o;
+  o.ambientBounces = 2;
+  const auto by = [&](const std::string& text) {
+    return litBy(Traced(text, o).transport().caches().aims, false);
+  };
+  const std::string sun = "sunlight source sun 0 0 4 0 -1 1 .53\n";
+  std::string overcast = kSunlitRoom;
+  ASSERT_NE(overcast.find(sun), std::string::npos);
+  overcast.erase(overcast.find(sun), sun.size());
+  EXPECT_EQ(by(kSunlitRoom), LitBy::sun);
+  EXPECT_EQ(by(overcast), LitBy::openings);
+  EXPECT_EQ(by("void plastic wall 0 0 5 .5 .5 .5 0 0\n" + roomOf("wall", V3d(4, 4, 3))), LitBy::other);
 }
 
 }  // namespace
