@@ -25,7 +25,7 @@ uint64_t fingerprint(const RayOptions& o, bool basicRadiance, const rad::FileAcc
                mediumEccentricity, mediumSampling, definitions, backFacesVisible, uncorrelated, rotation] = o;
   Fingerprint print;
   print.add(kVersion);
-  print.add(uint64_t{10});  // increase this if gathering changes without a new kVersion
+  print.add(uint64_t{11});  // increase this if gathering changes without a new kVersion
   for (const double x :
        {directThreshold, directCertainty, directJitter, sourceSubstructuring, specularSampling,
         specularThreshold, ambientAccuracy, weightLimit, mediumEccentricity, mediumSampling})
