@@ -20,6 +20,8 @@
 namespace rsphere {
 namespace {
 
+// Throws rad::Error with the file and line of an instance if an octree contains itself, or if octrees and
+// meshes are nested deeper than PlacementPath::kDeepest.
 class Nesting {
  public:
   explicit Nesting(const Scene& scene) : scene_(scene), heights_(scene.groups.size(), kUnknown) {}
@@ -60,12 +62,6 @@ class Nesting {
   const Scene& scene_;
   std::vector<int> heights_;  // by group
 };
-
-// Throws rad::Error with the file and line of an instance if an octree contains itself, or if octrees and
-// meshes are nested deeper than PlacementPath::kDeepest.
-void checkNesting(const Scene& scene) {
-  if (scene.groups.size() > 1) Nesting(scene).height(0, 0);
-}
 
 using rad::Place;
 using rad::Primitive;
@@ -127,7 +123,7 @@ class Builder {
       addGroup(adopt(read(octrees_[i].namedBy, [&] { return rad::readOctree(octrees_[i].file, options_); }),
                      from));
     }
-    checkNesting(scene_);
+    if (scene_.groups.size() > 1) Nesting(scene_).height(0, 0);
     for (size_t i = 0; i < meshes_.size(); ++i) addMesh(meshes_[i]);
     for (Finish& finish : scene_.surfaces.finishes()) finish.clip = modifiers_.clipOf(finish.described);
     scene_.vertices = std::move(scene_.description.vertices);
@@ -160,18 +156,13 @@ class Builder {
     }
   }
 
-  void beginFile(uint32_t firstPrimitive) {
-    firstPrimitive_ = firstPrimitive;
-    modifiers_.beginFile(firstPrimitive);
-  }
-
   // Appends the description of another file to the scene's. Primitives from here on belong to that file.
   // Returns the index of the first of them.
   uint32_t adopt(rad::Description&& description, Place from) {
-    const auto first = static_cast<uint32_t>(scene_.description.primitives.size());
+    firstPrimitive_ = static_cast<uint32_t>(scene_.description.primitives.size());
     rad::append(scene_.description, std::move(description), from);
-    beginFile(first);
-    return first;
+    modifiers_.beginFile(firstPrimitive_);
+    return firstPrimitive_;
   }
 
   // Adds a group: all surfaces among the primitives starting with this one.
@@ -203,19 +194,14 @@ class Builder {
     return at->second;
   }
 
-  uint32_t addPlacement(const Placement& placement) {
-    scene_.placements.push_back(placement);
-    return static_cast<uint32_t>(scene_.placements.size()) - 1;
-  }
-
-  Instance makeInstance(PrimitiveId i, const PrimitiveArguments& a) {
+  // An instance of an octree or of a mesh.
+  Shape makeInstance(PrimitiveId i, const PrimitiveArguments& a) {
     const PlacedFile placed = readPlacedFile(a);
-    return {addPlacement(placed.placement), 1 + numberOf(placed.file, i, octrees_, octreeNumbers_)};
-  }
-
-  MeshInstance makeMeshInstance(PrimitiveId i, const PrimitiveArguments& a) {
-    const PlacedFile placed = readPlacedFile(a);
-    return {addPlacement(placed.placement), numberOf(placed.file, i, meshes_, meshNumbers_)};
+    const auto placement = static_cast<uint32_t>(scene_.placements.size());
+    scene_.placements.push_back(placed.placement);
+    if (a.type() == Type::mesh)
+      return MeshInstance{placement, numberOf(placed.file, i, meshes_, meshNumbers_)};
+    return Instance{placement, 1 + numberOf(placed.file, i, octrees_, octreeNumbers_)};
   }
 
   // Reads a mesh. Each material that it uses becomes the modifier of a MeshFaces surface.
@@ -250,8 +236,7 @@ class Builder {
   void addSurface(PrimitiveId i, const Primitive& p) {
     // An octree cannot contain distant light sources.
     if (inOctree() && p.type == Type::source) return;
-    const std::optional<Shape> shape = makeShape(i, p);
-    if (shape) addSurface(i, p, *shape);
+    if (const auto shape = makeShape(i, p)) addSurface(i, p, *shape);
   }
 
   void addSurface(PrimitiveId i, const Primitive& p, const Shape& shape) {
@@ -320,8 +305,8 @@ class Builder {
       case Type::tube: return readCone(a, warn_);
       case Type::ring: return readRing(a, warn_);
       case Type::source: return readSource(a);
-      case Type::instance: return makeInstance(i, a);
-      case Type::mesh: return makeMeshInstance(i, a);
+      case Type::instance:
+      case Type::mesh: return makeInstance(i, a);
       default: a.fail("this type is not supported yet");
     }
   }
