@@ -199,66 +199,58 @@ size_t placeOf(const Layout& layout, size_t row, size_t column) {
   return layout.columnsAlongX ? slow * layout.columns + fast : fast * layout.rows + slow;
 }
 
-// Reads the pixels of a file, of four bytes each: three mantissas and a shared exponent.
-class PixelReader {
- public:
-  explicit PixelReader(Bytes& bytes) : bytes_(bytes) {}
-
-  // Reads the next row: channel by channel in the new run-length code, or pixel by pixel in the old one.
-  // Programs write the new code for rows of 8 to 32767 pixels; as in rtrace, its mark is accepted at any
-  // length.
-  void read(std::vector<Rgbe>& row) {
-    const std::string_view mark = bytes_.ahead(4);
-    if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
-      if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != row.size())
-        bad(bytes_.path(), "the length of a row differs from the resolution line");
-      bytes_.take(mark.size());
-      for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);
+// A pixel of a file has four bytes: three mantissas and a shared exponent.
+void readChannel(Bytes& bytes, std::vector<Rgbe>& row, size_t channel) {
+  for (size_t at = 0; at < row.size();) {
+    const uint8_t code = bytes.next();
+    const size_t count = code > 128 ? code - 128u : code;
+    if (count > row.size() - at) bad(bytes.path(), "a run is too long");
+    const size_t end = at + count;
+    if (code > 128) {
+      for (const uint8_t repeated = bytes.next(); at < end; ++at) row[at][channel] = repeated;
     } else {
-      readPixels(row);
+      while (at < end)
+        for (const char byte : bytes.take(end - at)) row[at++][channel] = static_cast<uint8_t>(byte);
     }
   }
+}
 
- private:
-  void readChannel(std::vector<Rgbe>& row, size_t channel) {
-    for (size_t at = 0; at < row.size();) {
-      const uint8_t code = bytes_.next();
-      const size_t count = code > 128 ? code - 128u : code;
-      if (count > row.size() - at) bad(bytes_.path(), "a run is too long");
-      const size_t end = at + count;
-      if (code > 128) {
-        for (const uint8_t repeated = bytes_.next(); at < end; ++at) row[at][channel] = repeated;
-      } else {
-        while (at < end)
-          for (const char byte : bytes_.take(end - at)) row[at++][channel] = static_cast<uint8_t>(byte);
-      }
+// In the old code, (1, 1, 1, n) repeats the preceding pixel n times; directly after another such code, n is
+// multiplied by 256, 256^2 and so on. As in rtrace, a run ends with the row, and at the start of a row these
+// four bytes are a pixel.
+void readPixels(Bytes& bytes, std::vector<Rgbe>& row) {
+  int shift = 0;
+  for (size_t at = 0; at < row.size();) {
+    Rgbe pixel;
+    const std::string_view coded = bytes.ahead(pixel.size());
+    if (coded.size() < pixel.size()) bad(bytes.path(), "it ends too early");
+    std::memcpy(pixel.data(), coded.data(), pixel.size());
+    bytes.take(pixel.size());
+    if (at == 0 || pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+      row[at++] = pixel;
+      shift = 0;
+      continue;
     }
+    const size_t count = std::min(static_cast<size_t>(pixel[3]) << shift, row.size() - at);
+    for (const size_t end = at + count; at < end; ++at) row[at] = row[at - 1];
+    shift = std::min(shift + 8, 24);  // 2^24 is more than any row
   }
+}
 
-  // In the old code, (1, 1, 1, n) repeats the preceding pixel n times; directly after another such code, n is
-  // multiplied by 256, 256^2 and so on. As in rtrace, a run ends with the row, and at the start of a row
-  // these four bytes are a pixel.
-  void readPixels(std::vector<Rgbe>& row) {
-    int shift = 0;
-    for (size_t at = 0; at < row.size();) {
-      Rgbe pixel;
-      const std::string_view coded = bytes_.ahead(pixel.size());
-      if (coded.size() < pixel.size()) bad(bytes_.path(), "it ends too early");
-      std::memcpy(pixel.data(), coded.data(), pixel.size());
-      bytes_.take(pixel.size());
-      if (at == 0 || pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
-        row[at++] = pixel;
-        shift = 0;
-        continue;
-      }
-      const size_t count = std::min(static_cast<size_t>(pixel[3]) << shift, row.size() - at);
-      for (const size_t end = at + count; at < end; ++at) row[at] = row[at - 1];
-      shift = std::min(shift + 8, 24);  // 2^24 is more than any row
-    }
+// Reads the next row: channel by channel in the new run-length code, or pixel by pixel in the old one.
+// Programs write the new code for rows of 8 to 32767 pixels; as in rtrace, its mark is accepted at any
+// length.
+void readRow(Bytes& bytes, std::vector<Rgbe>& row) {
+  const std::string_view mark = bytes.ahead(4);
+  if (mark.size() == 4 && mark.starts_with("\2\2") && static_cast<uint8_t>(mark[2]) < 128) {
+    if ((static_cast<size_t>(mark[2]) << 8 | static_cast<uint8_t>(mark[3])) != row.size())
+      bad(bytes.path(), "the length of a row differs from the resolution line");
+    bytes.take(mark.size());
+    for (size_t channel = 0; channel < 4; ++channel) readChannel(bytes, row, channel);
+  } else {
+    readPixels(bytes, row);
   }
-
-  Bytes& bytes_;
-};
+}
 
 // The step between mantissas, for a given exponent.
 float stepOf(uint8_t exponent) {
@@ -337,13 +329,12 @@ Picture Picture::read(const std::string& path) {
   }
   const Layout& layout = header.layout;
   checkLength(layout, bytes);
-  PixelReader reader(bytes);
   std::vector<Rgbe> row(layout.columns);
   picture.width_ = layout.columnsAlongX ? layout.columns : layout.rows;
   picture.height_ = layout.columnsAlongX ? layout.rows : layout.columns;
   picture.pixels_.resize(picture.width_ * picture.height_);
   for (size_t i = 0; i < layout.rows; ++i) {
-    reader.read(row);
+    readRow(bytes, row);
     for (size_t j = 0; j < layout.columns; ++j) picture.pixels_[placeOf(layout, i, j)] = row[j];
   }
   picture.size_ = sizeOf(picture.width_, picture.height_, header.aspect);
