@@ -50,17 +50,9 @@ struct Irregularity {
   }
   double operator()(const WgmdFunction& m) const { return std::max(lobe(m.reflected), lobe(m.transmitted)); }
   double operator()(const BsdfMaterial& m) const { return m.aperture ? 1 : 0; }
-  double operator()(const Dielectric&) const { return 1; }
-  double operator()(const Interface&) const { return 1; }
   double operator()(const Glass&) const { return tuning::SpecialObjects::kPane; }
-  double operator()(const Mirror&) const { return 1; }
-  double operator()(const Prism&) const { return 1; }
-  double operator()(const Antimatter&) const { return 0; }
-  double operator()(const Mist&) const { return 0; }
-  double operator()(const Light&) const { return 0; }
-  double operator()(const Illum&) const { return 0; }
-  double operator()(const Glow&) const { return 0; }
-  double operator()(const Spotlight&) const { return 0; }
+  double operator()(const OneOf<Dielectric, Interface, Mirror, Prism> auto&) const { return 1; }
+  double operator()(const OneOf<Antimatter, Mist, Light, Illum, Glow, Spotlight> auto&) const { return 0; }
 };
 
 // The most irregular material of a surface, including the alternatives of mixtures.
@@ -187,9 +179,8 @@ class Finder {
   Contents contentsOfGroup(uint32_t index) {
     const auto known = groups_.find(index);
     if (known != groups_.end()) return known->second;
-    const SurfaceGroup& group = scene_.groups[index];
     Contents contents;
-    for (const SurfaceId i : group.surfaces) {
+    for (const SurfaceId i : scene_.groups[index].surfaces) {
       const Contents inner = contentsOf(scene_.surfaces[i]);
       if (inner.objects > 0)
         count(contents, inner.mostIrregular, inner.objects, inner.irregularity);
@@ -241,8 +232,7 @@ class Finder {
   }
 
   void addContents(const Instance& instance, const Placement& placement) {
-    const SurfaceGroup& group = scene_.groups[instance.group];
-    for (const SurfaceId i : group.surfaces) add(i, &placement);
+    for (const SurfaceId i : scene_.groups[instance.group].surfaces) add(i, &placement);
   }
 
   void addContents(const MeshInstance& mesh, const Placement& placement) {
