@@ -42,10 +42,9 @@ std::vector<Modifier*> emittersOf(Scene& scene) {
 }  // namespace
 
 void setGoals(Scene& scene, std::span<const std::string> goals) {
-  for (Finish& finish : scene.surfaces.finishes()) finish.goal = false;
+  for (Finish& finish : scene.surfaces.finishes())
+    finish.goal = std::ranges::find(goals, finish.name) != goals.end();
   for (const std::string& goal : goals) {
-    for (Finish& finish : scene.surfaces.finishes())
-      if (finish.name == goal) finish.goal = true;
     const auto isOne = [&](const Surface& surface) { return surface.goal && surface.finish.name == goal; };
     if (goal == "void" || std::none_of(scene.surfaces.begin(), scene.surfaces.end(), isOne))
       throw rad::Error(fmt::format("no surface has the goal's modifier \"{}\"{}", rad::printable(goal),
@@ -56,16 +55,15 @@ void setGoals(Scene& scene, std::span<const std::string> goals) {
 
 void separateContributors(Scene& scene, std::span<const std::string> goals) {
   std::vector<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (positionOf(names, name) == names.size()) names.push_back(name);
-  };
   for (const std::string& goal : goals) {
     if (positionOf(names, goal) < names.size())
       throw rad::Error(fmt::format("-Sg {}: the goal is given twice", goal));
     names.push_back(goal);
   }
   if (goals.empty())
-    for (const Modifier* modifier : emittersOf(scene)) add(modifier->decoded.name);
+    for (const Modifier* modifier : emittersOf(scene))
+      if (const std::string& name = modifier->decoded.name; positionOf(names, name) == names.size())
+        names.push_back(name);
   if (names.empty()) throw rad::Error("-Sp: the scene has neither goals (-Sg) nor light sources");
   if (names.size() > kMostContributors)
     throw rad::Error(
