@@ -82,9 +82,7 @@ SmallSources smallSources(const PathsFrom& paths, const PixelMap& map, const See
     const double pixels = there > 0 ? image.solidAngle / there : OfPictures::kSmallest;
     image.rays = pixels < OfPictures::kSmallest ? OfPictures::kSmallest * std::max(1., pixels) : 0;
   }
-  small.images.erase(std::remove_if(small.images.begin(), small.images.end(),
-                                    [](const auto& image) { return image.rays == 0; }),
-                     small.images.end());
+  std::erase_if(small.images, [](const auto& image) { return image.rays == 0; });
   for (const SeenSources::Sample& s : sources.sample(paths, small.images, seed)) {
     const std::optional<size_t> pixel = map.pixelOf(s.direction.direction);
     if (!(s.direction.solidAngle > 0) || !pixel) continue;
