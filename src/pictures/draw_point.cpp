@@ -172,12 +172,12 @@ class RaysOfPixel {
     }
     ++count_;
     if (!direct) return;
-    ++ofOneSurface_;
-    dimmest_ = std::min(dimmest_, direct->length());
-    strongest_ = std::max(strongest_, direct->length());
+    ++direct_.rays;
+    direct_.least = std::min(direct_.least, direct->length());
+    direct_.most = std::max(direct_.most, direct->length());
   }
-  bool areOfOneSurface() const { return ofOneSurface_ == count_; }
-  bool crossShadow() const { return strongest_ - dimmest_ > OfPictures::kSameLight * strongest_; }
+  bool areOfOneSurface() const { return direct_.rays == count_; }
+  bool crossShadow() const { return direct_.most - direct_.least > OfPictures::kSameLight * direct_.most; }
   bool differ() const {
     const V3d range = brightest_ - darkest_;
     return std::max({range.x, range.y, range.z}) > OfPictures::kVisible;
@@ -192,8 +192,11 @@ class RaysOfPixel {
   const ToneCurve& curve_;
   bool forScreen_;
   V3d sum_{0, 0, 0}, darkest_{kFarAway, kFarAway, kFarAway}, brightest_{0, 0, 0};
-  double dimmest_ = kFarAway, strongest_ = 0;  // direct light
-  int count_ = 0, ofOneSurface_ = 0;
+  int count_ = 0;
+  struct {
+    double least = kFarAway, most = 0;
+    int rays = 0;
+  } direct_;  // of the rays that hit the surface in the middle of the pixel
 };
 
 // Removes the noise of soft shadows. Differences are judged relative to all diffuse light, as the eye

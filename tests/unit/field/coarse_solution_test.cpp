@@ -300,7 +300,7 @@ Sent sentFromSquare(SiteRays& rays, const std::function<double(double)>& seen, d
   for (size_t i = 0; i < kPlaces; ++i) {
     const double x = end * (static_cast<double>(i) + .5) / kPlaces;
     const V3d place(x, evenly(i, 0, 0).y, 0);
-    const PatchPlace on = solution.find({place, V3d(0, 0, 1), SurfaceId(0), nullptr, 100}, rays);
+    const PatchPlace on = solution.find({place, V3d(0, 0, 1), SurfaceId(0), nullptr, 20}, rays);
     EXPECT_TRUE(on.patch);
     if (!on.patch) continue;
     sent.byFunction += solution.light(on, 1, rays).x * seen(x) / kPlaces;

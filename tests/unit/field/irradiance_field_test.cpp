@@ -161,7 +161,7 @@ TEST(IrradianceField, AnswersTheSameInAnyOrderAndForAnyThread) {
 // With a bound (-Sm) of a twentieth of the memory needed, several threads get the same values to the bit. The
 // memory exceeds the bound by at most what the queries under way need.
 TEST(IrradianceField, ForgetsBeyondItsBoundAndAnswersTheSame) {
-  RayOptions o = interpolated(.2);
+  RayOptions o = interpolated(.18);
   o.ambientDivisions = 16;
   std::vector<V3d> places;
   for (double x = .15; x < 3.9; x += .3)
