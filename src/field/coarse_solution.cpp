@@ -176,7 +176,7 @@ CoarseSolution::~CoarseSolution() = default;
 CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bool daylit) {
   const bool first = options.patchesAtFirst, several = options.solutions > 1;
   const double accuracy = std::max(options.accuracy / OfPatches::kUsualAccuracy, 1 / OfPatches::kMoreRays);
-  Effort of;
+  Effort of{};
   of.spacing = OfPatches::kSpacing * std::min(accuracy, std::sqrt(accuracy));
   of.leastSide = OfPatches::kLeastPatch;
   of.farSide = first ? OfPatches::kFarPatchAtFirst : OfPatches::kFarPatch;
@@ -308,10 +308,10 @@ PatchPlace CoarseSolution::find(const SurfacePlace& place, FieldRays& rays, Aske
   if (!chart) return {};
   const Division& division = divisionAt(*chart, finestLevel(*chart, effort_.leastSide), rays);
   const double suffices = effort_.farSide * place.distance;
-  if (chart->extent() < OfPatches::kHalf * std::max(division.side, suffices)) return {};
+  if (chart->extent() < OfPatches::kSidesForPaths * std::max(division.side, suffices)) return {};
   const int enough = grid_.levelOf(std::min(suffices, tuning::Fields::kOpen * grid_.size));
   int level = std::min(division.level, enough);
-  if (place.distance < OfPatches::kHalf * grid_.side(level)) return {};
+  if (place.distance < OfPatches::kSidesForPaths * grid_.side(level)) return {};
   level = std::max(
       level, std::min(grid_.levelOf(effort_.nearSide * place.distance), std::min(enough, division.finest)));
   if (asker == Asker::patch) level = std::max(0, level - coarserLinks_);

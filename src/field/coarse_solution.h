@@ -78,17 +78,17 @@ class CoarseSolution {
  private:
   // How finely surfaces are divided into patches, and how many rays a patch sends.
   struct Effort {
-    double spacing;          // side of a patch, relative to the harmonic mean distance of its surroundings
-    double leastSide;        // lower bound on the side of a patch, relative to its surface's extent
-    double farSide;          // sufficient side of a patch, relative to the viewing distance
-    double nearSide;         // largest side of a patch, relative to that distance
-    double usual;            // rays of a patch whose share of the light on other surfaces is usualShare
-    double fewer = 0, more;  // bounds on the factor for other shares
-    double least;            // lower bound on the rays of a patch
-    double asked;            // number of rays of a gather that uses patches
-    double usualShare;       // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
-    double forSlopes;        // least number of rays of a patch whose light has slopes
-    double forLinks;         // the same for light that links use; below it, they use the mean
+    double spacing;      // side of a patch, relative to the harmonic mean distance of its surroundings
+    double leastSide;    // lower bound on the side of a patch, relative to its surface's extent
+    double farSide;      // sufficient side of a patch, relative to the viewing distance
+    double nearSide;     // largest side of a patch, relative to that distance
+    double usual;        // rays of a patch whose share of the light on other surfaces is usualShare
+    double fewer, more;  // bounds on the factor for other shares
+    double least;        // lower bound on the rays of a patch
+    double asked;        // number of rays of a gather that uses patches
+    double usualShare;   // tuning::CoarseSolution::kUsualShare or kUsualShareAtFirst
+    double forSlopes;    // least number of rays of a patch whose light has slopes
+    double forLinks;     // the same for light that links use; below it, they use the mean
   };
   static Effort effortFor(const FieldOptions& options, bool daylit);
 

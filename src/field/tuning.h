@@ -75,7 +75,7 @@ struct CoarseSolution {
   // a room with a door and frosted panes 1.2 +- .2% too dark at -aa .1. For equal noise, sensors then take
   // 1.35 times the time at -Sa .01, .9 times at -aa .1, and spherical means 1.05 times
   // (2026-11-30-near-patches.txt).
-  RSPHERE_TUNED(CoarseSolution, double, kHalf, 2);
+  RSPHERE_TUNED(CoarseSolution, double, kSidesForPaths, 2);
   // The side of a patch is at most this fraction of the viewing distance, down to the smallest patches of its
   // surface. Measured between boards close above each other: with .5, sensors are .7% too dark, with .25 .1%,
   // in an equal time.

@@ -76,7 +76,8 @@ FieldOptions fieldOptions(const RayOptions& o) {
 }
 
 LitBy litBy(const Aims& aims, bool byLamps) {
-  if (byLamps || !aims.of<Openings>()) return byLamps ? LitBy::lamps : LitBy::other;
+  if (byLamps) return LitBy::lamps;
+  if (!aims.of<Openings>()) return LitBy::other;
   const auto* const spots = aims.of<BrightSpots>();
   return spots && !spots->sunlit().empty() ? LitBy::sun : LitBy::openings;
 }

@@ -17,6 +17,7 @@ FieldOptions fieldOptions(const RayOptions& options);
 // What lights a place: lamps alone (isLitByLamps()), daylight through openings at which rays are aimed, such
 // daylight with patches of sun, or anything else.
 enum class LitBy : uint8_t { lamps, openings, sun, other };
+// byLamps: isLitByLamps().
 LitBy litBy(const Aims& aims, bool byLamps);
 // The number of rays of a record of the irradiance cache.
 int raysOfRecord(const RayOptions& options, LitBy by);
