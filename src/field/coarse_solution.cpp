@@ -189,12 +189,12 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
   of.forSlopes = of.forLinks = OfPatches::kFewestForSlopes;
   if (daylit) return of;
   const double coarser = OfPatches::kCoarserByLamps;
-  const double fewer = first || several ? 1 : OfPatches::kFewerByLamps;
+  const double fewer = first ? 1 : OfPatches::kFewerByLamps;
   for (double* const side : {&of.spacing, &of.leastSide, &of.farSide}) *side *= coarser;
   of.usual = fewer * OfPatches::kRays * of.asked;
   of.fewer = first ? 1 : 0;
   of.more = 1;
-  of.least = (first ? coarser * coarser : fewer) * OfPatches::kLeastRays;
+  of.least = (first ? coarser * coarser : several ? 1 : fewer) * OfPatches::kLeastRays;
   // Several solutions have few rays each. By noisy slopes of links, light can grow from bounce to bounce.
   // Gathers need slopes: without them, sensors below a cove are 6 to 8% too bright.
   of.forSlopes = 0;
