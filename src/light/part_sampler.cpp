@@ -494,12 +494,7 @@ void LightSources::sampleParts(LightId index, const V3d& point, const V3d& towar
   PartSampler(source, index, scene_, point, how, random, samples).sample(towards);
 }
 
-static_assert(kLightForms == 8, "Is the density of its samples known?");
-bool LightSources::isDensityKnown(LightId source) const {
-  const LightSource& light = sources_[source];
-  return light.isDistant() || light.as<PlaneLight>() || light.as<BallLight>();
-}
-
+static_assert(kLightForms == 8, "What is the density of its samples?");
 double LightSources::density(const SourceSample& hit, const V3d& point) const {
   const LightSource& source = sources_[hit.source];
   const double distance = hit.distance, cosine = std::abs(hit.cosine);
@@ -509,7 +504,14 @@ double LightSources::density(const SourceSample& hit, const V3d& point) const {
     const double solidAngle = near ? solidAngleOf(source, *plane, {}, point) : 0;
     return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
   }
-  if (!isDensityKnown(hit.source)) return 0;
+  if (const auto* tube = source.as<TubeLight>()) {
+    const V3d axis = tube->half.normalized(), from = point - source.center;
+    const V3d away = from - from.dot(axis) * axis;
+    const double radius = tube->area / (4 * tube->half.length()), fromAxis = away.length();
+    if (fromAxis <= radius) return 0;
+    const double facing = (from + distance * hit.direction).dot(away) / (radius * fromAxis);
+    return std::max(0., facing) / (tube->area * std::sqrt(1 - radius * radius / (fromAxis * fromAxis)));
+  }
   // Rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its center.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;
   const double sine2 = r * r / square;

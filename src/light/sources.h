@@ -63,11 +63,9 @@ class LightSources {
     if (light.beam.cosine > 0 && surelyBeside(light, towards)) return;
     sampleParts(source, point, towards, how, random, samples);
   }
-  // Whether the density of the samples of an undivided source with jitter 1 is known: of distant sources,
-  // plane ones and balls.
-  bool isDensityKnown(LightId source) const;
   // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
-  // has hit; 0 if it is not known. hit: its source, distance and cosine. REQUIRES that it is not distant.
+  // has hit, if the source is not split, with jitter 1 and tubesInDepth. hit: its source, direction, distance
+  // and cosine. REQUIRES that the source is not distant.
   double density(const SourceSample& hit, const V3d& point) const;
 
  private:

@@ -156,7 +156,7 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
 }
 
 bool SourceEmission::isAimedAt(LightId source) const {
-  return senders_[source].even && prepared_.lights().isDensityKnown(source);
+  return senders_[source].even;
 }
 
 double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,

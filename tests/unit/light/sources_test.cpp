@@ -505,8 +505,9 @@ TEST(Sources, BesideALargeWindowWithLittleJitter) {
     expectMean(meanIrradiance(scene, V3d(.05, 0, 0), kUp, {.02, jitter}, 4000), 2 * kPi * half, 1.03);
 }
 
-// The mean of 1 / density over samples is the area on which they lie: all of a plane source, and of a ball
-// the part that is seen, 2 pi r^2 (1 - r / d). Near sources are sampled by solid angle, far ones by area.
+// The mean of 1 / density over samples is the area on which they lie: all of a plane source, and the part
+// that is seen of a ball, 2 pi r^2 (1 - r / d), and of a cylinder, 2 r l acos(r / d). Near sources are
+// sampled by solid angle, far ones by area.
 TEST(Source, DensityIsThatOfItsSamples) {
   struct Case {
     std::string surface;
@@ -517,35 +518,27 @@ TEST(Source, DensityIsThatOfItsSamples) {
   const std::string triangle = "polygon p\n0\n0\n9 0 0 2 0 2 2 2 0 2\n";
   const std::string disk = "ring r\n0\n0\n8 0 0 2 0 0 -1 0 1\n";
   const std::string ball = "sphere s\n0\n0\n4 0 0 2 .5\n";
+  const std::string tube = "cylinder c\n0\n0\n7 0 0 2 0 1.5 2 .1\n";
   for (const Case& c : {Case{square, V3d(.3, .2, 1.7), 1}, Case{square, V3d(3, -2, -20), 1},
                         Case{triangle, V3d(.3, .2, 1.7), 2}, Case{triangle, V3d(3, -2, -20), 2},
                         Case{disk, V3d(.3, .2, 1.6), kPi}, Case{disk, V3d(3, -2, -20), kPi},
                         Case{ball, V3d(0, 0, 1.2), 2 * kPi * .25 * (1 - .5 / .8)},
-                        Case{ball, V3d(0, 3, -2), 2 * kPi * .25 * (1 - .5 / 5)}}) {
+                        Case{ball, V3d(0, 3, -2), 2 * kPi * .25 * (1 - .5 / 5)},
+                        Case{tube, V3d(.12, .3, 2), .3 * std::acos(.1 / .12)},
+                        Case{tube, V3d(-3, 8, -2), .3 * std::acos(.1 / 5)}}) {
     const Scene scene = sceneOf(light(c.surface));
     const LightSources sources(scene);
     const LightId source = *sources.all().ids().begin();
-    ASSERT_TRUE(sources.isDensityKnown(source));
     Random random(3);
     Sample area;
     for (int i = 0; i < 40000; ++i) {
       std::vector<SourceSample> samples;
-      sources.sample(source, c.point, {0, 1}, random, samples);
+      sources.sample(source, c.point, {0, 1, V3d(0, 0, 0), false, true}, random, samples);
       area.add(samples.empty() ? 0 : 1 / sources.density(samples[0], c.point));
     }
     SCOPED_TRACE(c.surface + fmt::format(" from {} {} {}", c.point.x, c.point.y, c.point.z));
     expectMean(area, c.area, 1.08);
   }
-  // Light of tubes is then not weighed by a density.
-  const Scene tube = sceneOf(light("cylinder c\n0\n0\n7 0 0 2 0 1 2 .1\n"));
-  const LightSources sources(tube);
-  const LightId source = *sources.all().ids().begin();
-  EXPECT_FALSE(sources.isDensityKnown(source));
-  Random random(3);
-  std::vector<SourceSample> samples;
-  sources.sample(source, V3d(1, 0, 0), {0, 1}, random, samples);
-  ASSERT_FALSE(samples.empty());
-  EXPECT_EQ(sources.density(samples[0], V3d(1, 0, 0)), 0);
 }
 
 }  // namespace
