@@ -28,8 +28,6 @@ namespace {
 // As in rtrace(1). The limit also stops the expansion of a file that refers to itself.
 constexpr size_t kMostExpanded = 4096;
 
-const Companion kNoCompanion;
-
 // The words of a command line, and a position at which @file and $VARIABLE are expanded.
 class CommandWords {
  public:
@@ -588,7 +586,7 @@ std::vector<UsedOption> parseCompanion(std::span<const std::string> commandLine,
 
 Options parseOptions(std::span<const std::string> words) {
   Options options;
-  parseCompanion(words, kNoCompanion, options);
+  parseCompanion(words, Companion{}, options);
   return options;
 }
 

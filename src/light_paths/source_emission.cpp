@@ -155,10 +155,6 @@ LightId SourceEmission::imageOf(LightId source, SurfaceId mirror) const {
   return kNone;
 }
 
-bool SourceEmission::isAimedAt(LightId source) const {
-  return senders_[source].even;
-}
-
 double SourceEmission::shadowRaysOver(const SourceSample& sample, const V3d& place, const V3d& normal,
                                       double probability) const {
   if (prepared_.lights().all()[sample.source].isDistant()) {

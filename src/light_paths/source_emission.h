@@ -47,7 +47,7 @@ class SourceEmission {
   // diverges from a focus behind it.
   double divergence(LightId source, double distance) const;
   // Whether the density of shadow rays towards the source is known.
-  bool isAimedAt(LightId source) const;
+  bool isAimedAt(LightId source) const { return senders_[source].even; }
   // For a place and a point on an even source: the density of shadow rays from the place to the point,
   // divided by the density of light paths from the point to the place (m2). normal: at the place (unit).
   // probability: of selecting this source for a shadow ray.

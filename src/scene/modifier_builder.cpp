@@ -150,7 +150,11 @@ ModifierBuilder::Made ModifierBuilder::make(PrimitiveId i) {
       return {Prism{static_cast<int>(read.images.size())}, std::move(read)};
     }
     case Type::antimatter: return antimatter(i, readAntimatter(arguments));
-    case Type::mist: return mist(readMist(arguments));
+    case Type::mist: {
+      Mist mist = readMist(arguments);
+      mist.number = mists_++;
+      return mist;
+    }
     case Type::light: return readLight(arguments);
     case Type::illum: {
       const AlternatingArguments read = readAlternating(arguments);
@@ -237,11 +241,6 @@ void ModifierBuilder::warnOnce(PrimitiveId i, const std::string& text) {
   const rad::Primitive p = primitive(i);
   if (warned_.insert(fmt::format("{} {} {}", static_cast<int>(p.type), p.name, text)).second)
     PrimitiveArguments(scene_.description, i).warn(warn_, text);
-}
-
-Material ModifierBuilder::mist(Mist read) {
-  read.number = mists_++;
-  return read;
 }
 
 }  // namespace rsphere

@@ -67,7 +67,6 @@ class ModifierBuilder {
   std::optional<ModifierId> componentModifier(PrimitiveId i, std::string_view name, bool used);
   Made wgmd(PrimitiveId i, WgmdArguments read);
   Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
-  Material mist(Mist read);
   void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);
   void warnOfNegativeLight(PrimitiveId i, const Material& material);
   void warnOnce(PrimitiveId i, const std::string& text);
