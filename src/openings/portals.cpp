@@ -9,10 +9,11 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
     : lift_(std::max(1e-6 * size, 8 * samePlace)) {
   double brightest = 0;
   for (const Opening& o : openings.all()) brightest = std::max(brightest, o.radiance);
-  for (Opening portal : openings.all()) {
-    if (portal.isHole && portal.radiance < tuning::Portals::kLeastRadiance * brightest) continue;
-    portal.corner -= lift_ * portal.normal;
-    portals_.push_back(portal);
+  for (const Opening& o : openings.all()) {
+    const bool mayBeFalse = o.isHole && o.radiance < tuning::Portals::kLeastRadiance * brightest;
+    if (mayBeFalse || o.isIndoors) continue;
+    portals_.push_back(o);
+    portals_.back().corner -= lift_ * o.normal;
   }
 }
 

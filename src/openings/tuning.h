@@ -90,9 +90,9 @@ struct Openings {
 struct Portals {
   // A hole with less than this fraction of the radiance of the brightest opening is no portal: paths from the
   // eye find its light. Rays to a false opening, such as a hole in the plane of the desk tops of a
-  // classroom, would be lost; as a portal, that hole makes the noise 25 instead of .4%. Panes are never
-  // false: without them, points that see windows below an overhang by a skylight have 19 instead of 1.7% of
-  // noise (tests/bench/rtrace/runs/2026-11-29-portals.txt).
+  // classroom, would be lost; as a portal, that hole makes the noise 25 instead of .4%. Panes below an open
+  // sky are never false: without them, points that see windows below an overhang by a skylight have 19
+  // instead of 1.7% of noise (tests/bench/rtrace/runs/2026-11-29-portals.txt).
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
 };
 

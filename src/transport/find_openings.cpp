@@ -34,6 +34,7 @@ struct Seen {
   // From the sky, neither reflected nor attenuated by panes. For a hole, also from places under the open sky:
   // behind an open window, an overhang or blinds may hide the sky itself.
   double sky = 0;
+  double skyOfPanes = 0;  // the part of `sky` that comes through further panes
 };
 
 // Whether `one` is the bright side of an opening.
@@ -57,13 +58,18 @@ class Probe {
     Seen seen;
     look(o, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t number) {
       const double bright = brightness(tracer_.glimpse(point, direction, number));
-      const auto last = beyondPanes(t_.scene(), t_.tracer(), point, direction,
-                                    [&](const Surface& surface) { return lightPasses(t_, surface); });
+      int panes = 0;
+      const auto last =
+          beyondPanes(t_.scene(), t_.tracer(), point, direction,
+                      [&](const Surface& surface) { return lightPasses(t_, surface) && ++panes > 0; });
       seen.all += bright / tuning::Caps::kProbes;
-      if (last && last->hit.surface == kNone)
-        seen.sky += brightness(tracer_.glimpse(last->origin, direction, 0)) / tuning::Caps::kProbes;
-      else if (last && o.isHole && isUnderSky(*last, direction, number))
+      if (last && last->hit.surface == kNone) {
+        const double sky = brightness(tracer_.glimpse(last->origin, direction, 0)) / tuning::Caps::kProbes;
+        seen.sky += sky;
+        seen.skyOfPanes += panes > 1 ? sky : 0;
+      } else if (last && o.isHole && isUnderSky(*last, direction, number)) {
         seen.sky += bright / tuning::Caps::kProbes;
+      }
     });
     return seen;
   }
@@ -192,6 +198,7 @@ void merge(std::vector<Opening>& panes) {
       a.height = size.y;
       a.filled += b.filled;
       a.power += b.power;
+      a.isIndoors = a.isIndoors && b.isIndoors;
       panes.erase(panes.begin() + static_cast<ptrdiff_t>(j));
       j = i + 1;
     }
@@ -237,7 +244,9 @@ Openings findOpenings(const PreparedScene& prepared) {
     if (above) opening.normal = -opening.normal;
     const Probe::Room room = probe.behind(opening, opening.normal);
     if (!(room.distance > 0)) continue;  // no surface receives its light
-    opening.power = (above ? along : against).all * opening.filled;
+    const Seen& bright = above ? along : against;
+    opening.power = bright.all * opening.filled;
+    opening.isIndoors = !opening.isHole && bright.skyOfPanes >= bright.sky / 2;
     inside += opening.power * room.brightness;
     depth += opening.power * room.distance;
     all += opening.power;

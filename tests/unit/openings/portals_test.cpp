@@ -39,6 +39,19 @@ TEST(Portals, AreLeftFromInsideOnly) {
   EXPECT_FALSE(hole.portals.lineLeaves(V3d(2, 3, 1.5), V3d(0, 1, 0), 10));
 }
 
+// The half of the room that it separates from the window is lit through it, but what is beyond is a room.
+TEST(Portals, AreNotInGlassPartitions) {
+  const std::string glass = "void glass clear 0 0 3 .96 .96 .96\n";
+  const std::string window = "clear polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
+  const std::string partition = "clear polygon partition 0 0 12 0 1 0 4 1 0 4 1 2.9 0 1 2.9\n";
+  Traced traced{glass + kHoleInWall + window + partition, unbiased(1)};
+  const Openings openings = findOpenings(traced.prepared());
+  ASSERT_EQ(openings.all().size(), 2u) << "rays of gathers are aimed at the partition, too";
+  const Portals portals(openings, 4, kSamePlace);
+  ASSERT_EQ(portals.all().size(), 1u);
+  EXPECT_NEAR(portals.all()[0].corner.y, 0, 1e-4);
+}
+
 TEST(Portals, HaveTheProjectedAreaOfTheHole) {
   const Hole hole;
   EXPECT_NEAR(areaTowards(hole.portals.all(), V3d(0, .6, -.8)), 2 * .6, 1e-6);
