@@ -100,10 +100,9 @@ struct CoarseSolution {
   // number of levels, unless patches are used at the first bounce: 2 would then make the errors of spherical
   // means three times as large (measured).
   static constexpr int kCoarserLinksByLamps = 2;
-  // Factor on the rays of a patch, in the scenes of kCoarserLinksByLamps. Measured: with 1, pictures take
-  // 1.3 to 1.4 times the time for the same errors, and sensors at -Sa .01, with several solutions, 1.2 to 2
-  // times; with .25, sensors in a room with gaps have 1.4 times the error. The least number of rays is not
-  // reduced if there are several solutions.
+  // Factor on the rays of a patch, in the scenes of kCoarserLinksByLamps; not on the least number of several
+  // solutions. Measured: with 1, pictures take 1.3 to 1.4 times the time for the same errors, and sensors at
+  // -Sa .01 1.2 to 2 times; with .25, sensors in a room with gaps have 1.4 times the error.
   static constexpr double kFewerByLamps = .5;
   // The smallest patches of a surface are chosen as if its extent were at most this fraction of the scene's
   // longest side, because rooms on a wide ground are much smaller than the ground. Chosen by experiment.
