@@ -505,6 +505,7 @@ double LightSources::density(const SourceSample& hit, const V3d& point) const {
     return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
   }
   if (const auto* tube = source.as<TubeLight>()) {
+    // Uniform along the axis and across the visible width: the element of area is dx dz / facing.
     const V3d axis = tube->half.normalized(), from = point - source.center;
     const V3d away = from - from.dot(axis) * axis;
     const double radius = tube->area / (4 * tube->half.length()), fromAxis = away.length();

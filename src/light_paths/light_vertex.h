@@ -10,7 +10,7 @@ namespace rsphere {
 struct LightVertex {
   enum Way : uint8_t {  // the last step of the light to the vertex
     direct,             // straight from a source
-    unweighed,          // directly from a source for which the density of shadow rays is unknown
+    unweighed,          // directly from the sky or from a source that is not even (source_emission.h)
     diffuse,            // directly from a diffuse reflection
     highlight,          // directly from a source's highlight on a rough surface
     // From a diffuse reflection or from beyond a portal, by sharp reflections at panes, mirrors and polished

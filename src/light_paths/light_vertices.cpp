@@ -239,7 +239,7 @@ bool LightVertices::Path::leave(double where) {
   beam_.direction = way.direction;
   past_.cosineAtSource = way.from.normal.dot(beam_.direction);
   beam_.power = way.power;
-  past_.way = all_.starts_.onSources.isAimedAt(past_.source) ? LightVertex::direct : LightVertex::unweighed;
+  past_.way = all_.starts_.onSources.isEven(past_.source) ? LightVertex::direct : LightVertex::unweighed;
   return true;
 }
 

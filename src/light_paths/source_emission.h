@@ -46,8 +46,8 @@ class SourceEmission {
   // Factor on the light at this distance from its source (world units), because the light of a spotlight
   // diverges from a focus behind it.
   double divergence(LightId source, double distance) const;
-  // Whether the density of shadow rays towards the source is known.
-  bool isAimedAt(LightId source) const { return senders_[source].even; }
+  // Whether the source is even. The densities of its light paths and of shadow rays to it are then known.
+  bool isEven(LightId source) const { return senders_[source].even; }
   // For a place and a point on an even source: the density of shadow rays from the place to the point,
   // divided by the density of light paths from the point to the place (m2). normal: at the place (unit).
   // probability: of selecting this source for a shadow ray.

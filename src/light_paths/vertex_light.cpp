@@ -183,7 +183,7 @@ bool VertexLight::samplesLobe(const PlainPlace& at) const {
 
 // Whether samples of lobes that hit a source estimate its light.
 bool VertexLight::isFoundByLobes(LightId source) const {
-  return sharesHighlights(prepared_, source) && vertices_.emission().isAimedAt(source);
+  return sharesHighlights(prepared_, source) && vertices_.emission().isEven(source);
 }
 
 double VertexLight::lobesOver(const PlainPlace& at, const V3d& view, const SourceSample& sample) const {

@@ -10,8 +10,7 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
   double brightest = 0;
   for (const Opening& o : openings.all()) brightest = std::max(brightest, o.radiance);
   for (const Opening& o : openings.all()) {
-    const bool mayBeFalse = o.isHole && o.radiance < tuning::Portals::kLeastRadiance * brightest;
-    if (mayBeFalse || o.isIndoors) continue;
+    if ((o.isHole || o.isIndoors) && o.radiance < tuning::Portals::kLeastRadiance * brightest) continue;
     portals_.push_back(o);
     portals_.back().corner -= lift_ * o.normal;
   }

@@ -43,7 +43,7 @@ TEST(Portals, AreLeftFromInsideOnly) {
 TEST(Portals, AreNotInGlassPartitions) {
   const std::string glass = "void glass clear 0 0 3 .96 .96 .96\n";
   const std::string window = "clear polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n";
-  const std::string partition = "clear polygon partition 0 0 12 0 1 0 4 1 0 4 1 2.9 0 1 2.9\n";
+  const std::string partition = "clear polygon partition 0 0 12 0 3.5 0 4 3.5 0 4 3.5 2.9 0 3.5 2.9\n";
   Traced traced{glass + kHoleInWall + window + partition, unbiased(1)};
   const Openings openings = findOpenings(traced.prepared());
   ASSERT_EQ(openings.all().size(), 2u) << "rays of gathers are aimed at the partition, too";
