@@ -403,22 +403,20 @@ PYBIND11_MODULE(_rsphere, m) {
   texts.disable_function_signatures();  // the texts have them, with the types that are meant
   m.attr("__version__") = version();
   addError(m);
-  const std::string traceText = std::string(kTrace) + kOptions, sphereText = std::string(kSphere) + kOptions,
-                    importanceText = std::string(kImportance) + kOptions,
-                    glareText = std::string(kGlare) + kOptions,
-                    contributionsText = std::string(kContributions) + kOptions;
+  const auto withOptions = [](const char* text) { return std::string(text) + kOptions; };
   py::class_<Scene> scene(m, "Scene", kScene);
   scene
       .def(py::init(&readScene), py::arg("files") = py::none(), py::arg("commands") = true,
            py::arg("goals") = std::vector<std::string>(), kInit)
-      .def("trace", &trace, py::arg("rays") = py::none(), traceText.c_str())
-      .def("sphere", &sphere, py::arg("points") = py::none(), sphereText.c_str())
+      .def("trace", &trace, py::arg("rays") = py::none(), withOptions(kTrace).c_str())
+      .def("sphere", &sphere, py::arg("points") = py::none(), withOptions(kSphere).c_str())
       .def("importance", &importance, py::arg("points") = py::none(), py::arg("goals") = py::none(),
-           importanceText.c_str())
-      .def("glare", &glare, py::arg("eyes") = py::none(), py::arg("gazes") = py::none(), glareText.c_str())
+           withOptions(kImportance).c_str())
+      .def("glare", &glare, py::arg("eyes") = py::none(), py::arg("gazes") = py::none(),
+           withOptions(kGlare).c_str())
       .def("contributions", &contributions, py::arg("rays") = py::none(), py::arg("of") = py::none(),
            py::kw_only(), py::arg("bins") = py::none(), py::arg("samples") = 8,
-           py::arg("coefficients") = false, contributionsText.c_str());
+           py::arg("coefficients") = false, withOptions(kContributions).c_str());
   refuseSecondInit(scene);
   m.def("zone_middles", &zoneMiddlesOf, py::arg("count"),
         "zone_middles(count: int) -> array (count, 3)\n\n"
