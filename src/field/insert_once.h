@@ -7,7 +7,7 @@
 namespace rsphere {
 
 // A hash table that many threads can read and extend at the same time without waiting. Entries are never
-// moved, changed or removed. Key needs a member hash(); Value need not be movable.
+// moved, changed or removed. Key needs a member bucket(); Value need not be movable.
 template <class Key, class Value>
 class InsertOnce {
  public:
@@ -22,7 +22,7 @@ class InsertOnce {
   }
 
   Value* find(const Key& key) {
-    Node* const node = findFrom(buckets_[key.hash() & mask_].load(std::memory_order_acquire), key);
+    Node* const node = findFrom(buckets_[key.bucket() & mask_].load(std::memory_order_acquire), key);
     return node ? &node->value : nullptr;
   }
 
@@ -30,7 +30,7 @@ class InsertOnce {
   // another thread has added one in the meantime.
   template <class Make>
   Value& findOrAdd(const Key& key, Make make) {
-    std::atomic<Node*>& bucket = buckets_[key.hash() & mask_];
+    std::atomic<Node*>& bucket = buckets_[key.bucket() & mask_];
     Node* first = bucket.load(std::memory_order_acquire);
     if (Node* found = findFrom(first, key)) return found->value;
     auto node = std::make_unique<Node>(key);

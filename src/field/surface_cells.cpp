@@ -24,12 +24,12 @@ bool isPlaced(const SurfacePlace& place) { return place.path && place.path->coun
 
 }  // namespace
 
-uint64_t CellKey::hash() const {
+uint64_t CellKey::hash(int shift) const {
   const auto both =
       static_cast<uint64_t>(static_cast<uint32_t>(surface.number())) << 32 | static_cast<uint32_t>(level);
   uint64_t h = mixBits(chart ^ both);
-  h = mixBits(h ^ static_cast<uint64_t>(i));
-  return mixBits(h ^ static_cast<uint64_t>(j) * 0x9e3779b97f4a7c15u);
+  h = mixBits(h ^ static_cast<uint64_t>(i >> shift));
+  return mixBits(h ^ static_cast<uint64_t>(j >> shift) * 0x9e3779b97f4a7c15u);
 }
 
 CellGrid::CellGrid(const Box3d& bounds) {
