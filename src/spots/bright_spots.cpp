@@ -213,20 +213,25 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     const size_t halves = tree[i].halves;
     tree[i].finest = halves > 0 ? tree[halves].finest + tree[halves + 1].finest : tree[i].node.worth();
   }
+  const auto isBright = [&](const Branch* branch) {
+    return branch->node.spot.power > brighter * usual * branch->node.area;
+  };
   std::vector<const Branch*> chosen{&tree.front()};
-  while (spots_.count + chosen.size() < most) {
+  while (spots_.count + static_cast<size_t>(std::ranges::count_if(chosen, isBright)) < most) {
     const auto best = std::ranges::max_element(
         chosen, [](const Branch* a, const Branch* b) { return a->gain() < b->gain(); });
-    if (!((*best)->gain() > 0)) break;
+    if (!((*best)->gain() > tuning::BrightSpots::kLeastGain * tree.front().finest)) break;
     const Branch* halves = &tree[(*best)->halves];
     *best = halves;
     chosen.push_back(halves + 1);
   }
   std::vector<Node> nodes;
-  for (const Branch* branch : chosen) nodes.push_back(branch->node);
-  std::erase_if(nodes, [&](const Node& node) { return !(node.spot.power > brighter * usual * node.area); });
   double worth = 0;
-  for (const Node& node : nodes) worth += node.worth();
+  for (const Branch* branch : chosen) {
+    if (!isBright(branch)) continue;
+    nodes.push_back(branch->node);
+    worth += branch->node.worth();
+  }
   if (!(worth > leastWorth * usual * power)) return {};
   if (empty()) usual_ = usual / kPi;
   for (const Node& node : nodes) keep(node.spot);
