@@ -57,11 +57,6 @@ SharedError sharedError(const VertexLight::Record& record) {
           {record.squares, record.squaredBrightness}};
 }
 
-// Black smooth metal acts like a mirror without virtual sources: it shows the light of portals.
-bool isMirror(const PlainSurfaces& surfaces, const Sight& sight) {
-  return sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror;
-}
-
 }  // namespace
 
 // Chooses the light vertices that are connected to a point by joins. The probability of a vertex is
@@ -346,7 +341,8 @@ bool suitsDaylight(const V3d& point, const PlainSurfaces& surfaces, int bounces)
       const Sight sight = surfaces.look(origin, direction, kFarAway, start);
       if (sight.leaves) break;
       const PlainPlace at = surfaces.placeOf(origin, direction, sight, scratch);
-      past += !at.material && !isMirror(surfaces, sight);
+      // Black smooth metal acts like a mirror without virtual sources: it shows the light of portals.
+      past += !at.material && !(sight.hit.surface != kNone && surfaces.finishOf(sight.hit.surface).mirror);
       if (!at.material || random.uniform() >= brightness(Radiance(at.color()))) break;
       origin = at.point;
       start = at.surface;

@@ -113,7 +113,6 @@ class LightVertices::Path {
 
  private:
   bool leave(double where);
-  void leaveSky(double where);
   bool entersAgain(const Hit& hit) const;
   // Whether sharp reflections of light straight from a source are left out, as rtrace leaves them out.
   // Importance has them: they are the last steps of light that rays from a goal find by the same reflections.
@@ -181,7 +180,9 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
     beam_.length += hit.distance;
     if (hit.perturbation != V3d(0, 0, 0)) break;
     const PlainFinish& finish = all_.surfaces_.finishOf(hit.surface);
+    beam_.start = hit.surface;
     if (finish.pane || finish.mirror) {
+      beam_.origin += hit.distance * beam_.direction;
       if (finish.pane ? passPane(hit) : meetMirror(hit, course)) continue;
       break;
     }
@@ -196,11 +197,9 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
       break;
     }
     arrive(at);
-    if (!reflect(at)) break;
-    past_.fromSource = false;
     beam_.length = 0;
     beam_.origin = at.point;
-    beam_.start = at.surface;
+    if (!reflect(at)) break;
   }
   return course;
 }
@@ -208,25 +207,20 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
 // Whether a light path enters the room through a portal. It ends there, because paths that start on the
 // portal carry this light.
 bool LightVertices::Path::entersAgain(const Hit& hit) const {
-  const Portals& portals = all_.surfaces_.portals();
-  return !portals.empty() &&
-         portals.lineLeaves(beam_.origin + hit.distance * beam_.direction, -beam_.direction, hit.distance);
-}
-
-void LightVertices::Path::leaveSky(double where) {
-  const SkyEmission::Leaving way =
-      all_.starts_.onPortals.leave(where, prepared_.options().ambientBounces, random_, *outdoors_);
-  beam_.origin = way.origin;
-  beam_.direction = way.direction;
-  beam_.power = way.power;
-  past_.way = LightVertex::unweighed;  // places in view sample portals for this light
-  past_.fromSource = false;
-  past_.bounces = way.bounces;
+  return all_.surfaces_.portals().lineLeaves(beam_.origin + hit.distance * beam_.direction, -beam_.direction,
+                                             hit.distance);
 }
 
 bool LightVertices::Path::leave(double where) {
   if (where < all_.starts_.shareOfSky) {
-    leaveSky(where / all_.starts_.shareOfSky);
+    const SkyEmission::Leaving way = all_.starts_.onPortals.leave(
+        where / all_.starts_.shareOfSky, prepared_.options().ambientBounces, random_, *outdoors_);
+    beam_.origin = way.origin;
+    beam_.direction = way.direction;
+    beam_.power = way.power;
+    past_.way = LightVertex::unweighed;  // places in view sample portals for this light
+    past_.fromSource = false;
+    past_.bounces = way.bounces;
     return true;
   }
   past_.source =
@@ -252,8 +246,6 @@ bool LightVertices::Path::passPane(const Hit& hit) {
   for (const SharpPath& next : s.sharp) {
     const double share = brightness(beam_.power * next.coefficient);
     if ((left -= share) >= 0) continue;
-    beam_.origin += hit.distance * beam_.direction;
-    beam_.start = hit.surface;
     beam_.power = beam_.power * next.coefficient * (brightness(beam_.power) / share);
     if (next.kind == kReflected) {
       beam_.direction = next.direction;
@@ -279,8 +271,6 @@ bool LightVertices::Path::meetMirror(const Hit& hit, Course& course) {
   const double share = brightness(beam_.power * next.coefficient) / brightness(beam_.power);
   if (random_.uniform() >= share) return false;
   beam_.power = beam_.power * next.coefficient / share;
-  beam_.origin += hit.distance * beam_.direction;
-  beam_.start = hit.surface;
   beam_.direction = next.direction;
   if (image != kNone) {
     past_.source = image;
@@ -344,6 +334,7 @@ bool LightVertices::Path::reflect(const PlainPlace& at) {
   past_.senderIsMirrored = past_.way == LightVertex::mirrored;
   past_.senderIsUnbounded = LightVertex::isUnbounded(past_.way);
   past_.way = LightVertex::diffuse;
+  past_.fromSource = false;
   ++past_.bounces;
   return std::abs(brightness(beam_.power)) > 0;
 }
@@ -355,12 +346,11 @@ bool LightVertices::Path::reflectSpecularly(const Scattering& s, const Interacti
     reflectedSharply();
   } else {
     past_.way = past_.fromSource ? LightVertex::highlight : LightVertex::sharp;
-    if (past_.fromSource) ++past_.bounces;  // a highlight is indirect light at the next surface
+    past_.bounces += past_.fromSource;  // a highlight is indirect light at the next surface
+    past_.fromSource = false;
     const double u1 = random_.uniform(), u2 = random_.uniform();
-    V3d next;
     // The lobe is reciprocal, so that it can be sampled from this side.
-    const double weight = sampleReflection(s, view, 1, u1, u2, next);
-    beam_.direction = next;
+    const double weight = sampleReflection(s, view, 1, u1, u2, beam_.direction);
     beam_.power = Irradiance(beam_.power.color * s.specularReflection * (weight * scale));
   }
   return std::abs(brightness(beam_.power)) > 0;
@@ -430,7 +420,9 @@ NearLight LightVertices::measured(const PreparedScene& prepared, size_t paths, u
   }
   // A twentieth more than expected, so that hardly any list grows while all paths are sent.
   const double times = 1.05 * static_cast<double>(paths) / static_cast<double>(std::max(tried, size_t(1)));
-  const double mirrored = times * static_cast<double>(visible_.count(LightVertex::mirrored));
+  const double mirrored =
+      times * static_cast<double>(std::ranges::count(visible_.all(), LightVertex::mirrored,
+                                                     [](const VisibleVertex& v) { return v.vertex.way; }));
   clearFor(times, all_);
   clearFor(times, arriving_);
   visible_.clearFor(times);

@@ -83,10 +83,6 @@ struct VisibleVertex {
 class VisibleVertices {
  public:
   void add(VisibleVertex vertex) { all_.push_back(std::move(vertex)); }
-  size_t count(LightVertex::Way way) const {
-    return static_cast<size_t>(
-        std::ranges::count_if(all_, [&](const VisibleVertex& v) { return v.vertex.way == way; }));
-  }
   // Removes all vertices, and reserves memory for `times` as many.
   void clearFor(double times);
   // Call this once, after the last vertex has been added.

@@ -6,11 +6,8 @@
 namespace rsphere {
 
 SkyEmission::SkyEmission(const Portals& portals, double paths) : portals_(portals) {
-  if (!(paths > 0)) return;
-  for (const Opening& p : portals.all()) {
-    pathPower_ += kPi * p.area() * p.radiance / paths;
-    sum_ += p.area() * p.radiance;
-  }
+  for (const Opening& p : portals.all()) sum_ += p.area() * p.radiance;
+  if (paths > 0) pathPower_ = kPi * sum_ / paths;
 }
 
 SkyEmission::Leaving SkyEmission::leave(double where, int most, Random& random, OutdoorParts outdoors) const {
