@@ -112,6 +112,7 @@ class LightVertices::Path {
   Course send(double where);
 
  private:
+  void follow(Course& course);
   bool leave(double where);
   bool entersAgain(const Hit& hit) const;
   // Whether sharp reflections of light straight from a source are left out, as rtrace leaves them out.
@@ -173,7 +174,11 @@ class LightVertices::Path {
 
 LightVertices::Path::Course LightVertices::Path::send(double where) {
   Course course;
-  if (!leave(where)) return course;
+  if (leave(where)) follow(course);
+  return course;
+}
+
+void LightVertices::Path::follow(Course& course) {
   for (size_t hits = 0; hits < tuning::LightVertices::kMostHits && brightness(beam_.power) > 0; ++hits) {
     const Hit hit = prepared_.tracer().nearest(beam_.origin, beam_.direction, kFarAway, beam_.start);
     if (hit.surface == kNone || entersAgain(hit)) break;
@@ -199,9 +204,22 @@ LightVertices::Path::Course LightVertices::Path::send(double where) {
     arrive(at);
     beam_.length = 0;
     beam_.origin = at.point;
+    // Splitting: a path from a portal with more light than most, as of the sun through a frosted pane, goes on
+    // as several. A single one that a glossy floor reflects would be a bright spot on the ceiling.
+    size_t parts = 1;
+    if (past_.source == kNone && course.met == 1)
+      parts =
+          std::clamp<size_t>(brightness(beam_.power) / all_.pathPower(), 1, tuning::LightVertices::kMostHits);
+    beam_.power = beam_.power / static_cast<double>(parts);
+    const Beam beam = beam_;
+    const Past past = past_;
+    for (size_t i = 1; i < parts; ++i) {
+      if (reflect(at)) follow(course);
+      beam_ = beam;
+      past_ = past;
+    }
     if (!reflect(at)) break;
   }
-  return course;
 }
 
 // Whether a light path enters the room through a portal. It ends there, because paths that start on the

@@ -25,8 +25,8 @@ struct LightVertices {
   // estimate the power of a source with a pattern or a cone. If single values vary as much as their mean,
   // such means are known within 3%.
   static constexpr size_t kMeasured = 1024;
-  // Cap on the surfaces that a light path hits, for mirrors that face each other. Russian roulette ends
-  // nearly all paths earlier.
+  // Cap on the surfaces that a light path hits, for mirrors that face each other, and on the parts that it is
+  // split into. Russian roulette ends nearly all paths earlier.
   static constexpr size_t kMostHits = 1024;
   // NearLight::closeShare() is 0 beyond ten times the distance at which share() is 1/2, and so for most
   // vertices.

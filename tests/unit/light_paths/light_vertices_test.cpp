@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tests/unit/light_paths/white_sphere.h"
+#include "tests/unit/support/room_with_hole.h"
+#include "transport/find_aims.h"
 
 namespace rsphere::light_vertices_test {
 namespace {
@@ -36,6 +41,38 @@ TEST(LightVertices, HaveThePowerOfTheLampAndOfItsReflections) {
     SCOPED_TRACE(i + 1);
     expectMean(power[i], ofLamp * std::pow(kReflectance, i + 1), 1.05);
   }
+}
+
+// The sun shines through a frosted pane onto a glossy floor. The few light paths that bring it are split
+// there, so that no vertex of the highlight has much more light than the mean path.
+TEST(LightVertices, OfMuchLightAreSplit) {
+  const Traced room(
+      "void plastic gray 0 0 5 .5 .5 .5 .1 .2\nvoid trans frosted 0 0 7 .6 .6 .6 0 .05 .6 .5\n"
+      "void glow sky 0 0 4 1 1 1 0\nsky source heaven 0 0 4 0 0 1 180\n"
+      "void light sunlight 0 0 3 1e6 1e6 1e6\nsunlight source sun 0 0 4 0 -1 1 .53\n"
+      "frosted polygon window 0 0 12 1 0 1 3 0 1 3 0 2 1 0 2\n" +
+          kRoomWithHole,
+      unbiased(3));
+  const Portals portals(findOpenings(room.prepared()), 4, kSamePlace);
+  const PlainSurfaces surfaces(room.prepared(), portals);
+  PathTracer tracer = room.tracerWith({});
+  const auto beyond = [&](const V3d& origin, const V3d& direction, int bounces, Random& random,
+                          std::vector<Radiance>& parts) {
+    tracer.outdoors(origin, direction, bounces, random.bits(), parts);
+  };
+  const OutdoorParts outdoors(beyond);
+  constexpr size_t kPaths = 8000;
+  const LightVertices vertices(room.prepared(), surfaces, emissionOf(room, surfaces, kPaths / 2), kPaths, 1,
+                               &outdoors);
+  double onFloor = 0, inHighlight = 0;
+  for (size_t i = 0; i < vertices.all().size(); ++i)
+    if (vertices.all()[i].way == LightVertex::unweighed)
+      onFloor = std::max(onFloor, brightness(vertices.powerOf(i)));
+  for (const VisibleVertex& v : vertices.visible().all())
+    if (v.vertex.way == LightVertex::sharp) inHighlight = std::max(inHighlight, brightness(v.power));
+  EXPECT_GT(onFloor, 10 * vertices.pathPower());
+  EXPECT_GT(inHighlight, .1 * vertices.pathPower());
+  EXPECT_LT(inHighlight, 3 * vertices.pathPower());
 }
 
 // Rays to near surfaces and vertices far away share the light between two places.
