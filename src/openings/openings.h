@@ -26,7 +26,7 @@ struct Opening : Rectangle {
   bool isHole = false;
   double radiance = 0;  // brightness, mean of the light that enters (W/sr/m2)
   double power = 0;     // of the light that enters: radiance times `filled`
-  // A pane that sees no sky, or most of it through other panes, as a glass partition does.
+  // It sees no sky, or most of it through other panes: a glass partition, the mouth of a skylight's shaft.
   bool isIndoors = false;
   // The hole by which light leaves a shaft behind the panes, with the same normal. Beyond it, the panes are
   // seen only through it, and so are the walls of the shaft, which they light.

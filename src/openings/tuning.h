@@ -89,10 +89,11 @@ struct Openings {
 // Openings as light sources of paths from both ends (portals.cpp).
 struct Portals {
   // A hole, or a pane indoors, with less than this fraction of the radiance of the brightest opening is no
-  // portal: paths from the eye find its light. Rays to a false opening, such as a hole in the plane of desk
-  // tops, would be lost; as portals, that hole makes the noise 25 instead of .4%, and a glass partition 6
-  // instead of 1.5%. Panes below an open sky are never false: without them, points that see windows below an
-  // overhang by a skylight have 19 instead of 1.7% (2026-11-29-portals.txt, 2026-11-30-lamps.txt).
+  // portal, nor is a hole indoors: paths from the eye find its light. Rays to a false opening, such as a hole
+  // in the plane of desk tops, would be lost; as portals, that hole makes the noise 25 instead of .4%, a
+  // glass partition 6 instead of 1.5%, mouths of shafts 4 instead of 2%. Panes below an open sky are never
+  // false: without them, points that see windows below an overhang by a skylight have 19 instead of 1.7%
+  // (2026-11-29-portals.txt, 2026-11-30-lamps.txt, -points.txt).
   RSPHERE_TUNED(Portals, double, kLeastRadiance, .2);
 };
 

@@ -34,7 +34,7 @@ struct Seen {
   // From the sky, neither reflected nor attenuated by panes. For a hole, also from places under the open sky:
   // behind an open window, an overhang or blinds may hide the sky itself.
   double sky = 0;
-  double skyOfPanes = 0;  // the part of `sky` that comes through further panes
+  double skyOfPanes = 0;  // the part of `sky` that comes through panes, other than the opening's own
 };
 
 // Whether `one` is the bright side of an opening.
@@ -58,7 +58,7 @@ class Probe {
     Seen seen;
     look(o, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t number) {
       const double bright = brightness(tracer_.glimpse(point, direction, number));
-      int panes = 0;
+      int panes = o.isHole;
       const auto last =
           beyondPanes(t_.scene(), t_.tracer(), point, direction,
                       [&](const Surface& surface) { return lightPasses(t_, surface) && ++panes > 0; });
@@ -246,7 +246,7 @@ Openings findOpenings(const PreparedScene& prepared) {
     if (!(room.distance > 0)) continue;  // no surface receives its light
     const Seen& bright = above ? along : against;
     opening.power = bright.all * opening.filled;
-    opening.isIndoors = !opening.isHole && bright.skyOfPanes >= bright.sky / 2;
+    opening.isIndoors = bright.skyOfPanes >= bright.sky / 2;
     inside += opening.power * room.brightness;
     depth += opening.power * room.distance;
     all += opening.power;

@@ -52,6 +52,27 @@ TEST(Portals, AreNotInGlassPartitions) {
   EXPECT_NEAR(portals.all()[0].corner.y, 0, 1e-4);
 }
 
+// Its walls are indoors: glances and light paths find the sun on them.
+TEST(Portals, AreNotInTheMouthOfAShaft) {
+  const std::string shaft =
+      "gray polygon below 0 0 12 1 0 1 3 0 1 3 -1.5 1 1 -1.5 1\n"
+      "gray polygon above 0 0 12 1 0 2 1 -1.5 2 3 -1.5 2 3 0 2\n"
+      "gray polygon left 0 0 12 1 0 1 1 -1.5 1 1 -1.5 2 1 0 2\n"
+      "gray polygon right 0 0 12 3 0 1 3 0 2 3 -1.5 2 3 -1.5 1\n";
+  const std::string pane =
+      "void glass clear 0 0 3 .96 .96 .96\n"
+      "clear polygon pane 0 0 12 1 -1.5 1 3 -1.5 1 3 -1.5 2 1 -1.5 2\n";
+  Traced closed{kHoleInWall + shaft + pane, unbiased(1)}, open{kHoleInWall + shaft, unbiased(1)};
+  const Openings openings = findOpenings(closed.prepared());
+  ASSERT_EQ(openings.all().size(), 2u) << "rays of gathers are aimed at the mouth, too";
+  const Portals portals(openings, 4, kSamePlace);
+  ASSERT_EQ(portals.all().size(), 1u);
+  EXPECT_NEAR(portals.all()[0].corner.y, -1.5, 1e-4);
+  const Portals without(findOpenings(open.prepared()), 4, kSamePlace);
+  ASSERT_FALSE(without.empty());
+  EXPECT_GT(without.all()[0].at(.5, .5).y, -2) << "without a pane, the hole is the portal";
+}
+
 TEST(Portals, HaveTheProjectedAreaOfTheHole) {
   const Hole hole;
   EXPECT_NEAR(areaTowards(hole.portals.all(), V3d(0, .6, -.8)), 2 * .6, 1e-6);
