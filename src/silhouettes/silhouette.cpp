@@ -138,7 +138,7 @@ void Silhouette::setPolygon(const Polygon& polygon, std::span<const V3d> vertice
 // mean direction). False if they extend beyond kWidestHull.
 bool Silhouette::setHull(std::span<const V3d> points, const V3d& point) {
   V3d middle(0, 0, 0);
-  for (const V3d& p : points) middle += p - point;
+  for (const V3d& p : points) middle += (p - point).normalized();
   if (!(middle.length() > 0)) return false;
   middle.normalize();
   const auto [x, y] = frame(middle);
