@@ -50,7 +50,7 @@ struct Irregularity {
   }
   double operator()(const WgmdFunction& m) const { return std::max(lobe(m.reflected), lobe(m.transmitted)); }
   double operator()(const BsdfMaterial& m) const { return m.aperture ? 1 : 0; }
-  double operator()(const Glass&) const { return tuning::SpecialObjects::kPane; }
+  double operator()(const Glass& m) const { return m.refraction == 1 ? 0 : tuning::SpecialObjects::kPane; }
   double operator()(const OneOf<Dielectric, Interface, Mirror, Prism> auto&) const { return 1; }
   double operator()(const OneOf<Antimatter, Mist, Light, Illum, Glow, Spotlight> auto&) const { return 0; }
 };

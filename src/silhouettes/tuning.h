@@ -50,7 +50,7 @@ struct SpecialObjects {
   // light sources (glints.h).
   static constexpr double kSharpRoughness = .0065;
   // The irregularity of glass panes. It is low because objects behind a pane look as large as without it, and
-  // its reflections are faint: a pane gets 64 directions per sr, at most a few hundred. Insensitive.
+  // its reflections are faint (none with a refraction of 1): 64 directions per sr, at most a few hundred.
   static constexpr double kPane = .002;
   // Objects whose radiance varies less with direction than this are treated as diffuse: derived. At this
   // threshold they would get 16 directions per sr, a tenth of the density of the default base directions.
