@@ -42,18 +42,31 @@ class Gathers {
   Radiance mean() const { return (mean(0) + mean(1)) / 2; }
   Radiance mirrored() const { return mirrored_ / (kInHalf * (raysOf(0) + raysOf(1))); }
 
-  // The variance of the mean of a half. The gathers of a round are independent, but for their solutions.
-  Variance variance(size_t half) const {
-    return withSolutions(ofGathers(halves_[half]), halves_[half].means());
+  // The part of the variance of the mean that more rays reduce, of a half and of both. The gathers of a round
+  // are independent, but for their solutions.
+  Variance ofGathers(size_t half) const {
+    Variance sum;
+    for (const Round& round : halves_[half].rounds) {
+      const double weight = round.rays / (kInHalf * raysOf(half));
+      sum += spreadOf(round.values) * (static_cast<double>(round.values.size()) * weight * weight);
+    }
+    return sum;
+  }
+  Variance ofGathers() const {
+    Variance both = ofGathers(0);
+    both += ofGathers(1);
+    return both * (1. / 4);
   }
   // The variance of the mean of both halves.
-  Variance variance() const { return withSolutions(ofGathers(), meansOfSolutions()); }
+  Variance variance() const {
+    const Variance one = ofGathers(), other = ofSolutions();
+    return {combined(one.channels, other.channels, [](double x, double y) { return std::max(x, y); }),
+            std::max(one.brightness, other.brightness)};
+  }
 
-  // Whether the noise of patches, which more rays do not reduce, is far above this error.
+  // Whether the noise of patches is far above this error.
   bool patchesExceed(double error) const {
-    if (!share_) return false;
-    const double shown = ofSolutions(meansOfSolutions()).brightness;
-    const double most = tuning::RaySets::kTooNoisy * error;
+    const double shown = ofSolutions().brightness, most = tuning::RaySets::kTooNoisy * error;
     return shown > most * most && shown > tuning::RaySets::kByPatches * ofGathers().brightness;
   }
 
@@ -86,34 +99,13 @@ class Gathers {
     for (const Radiance& value : values) sum += Variance::of(Irradiance((value - mean).color), sampling_);
     return sum * (1. / static_cast<double>(values.size() - 1));
   }
-  Variance ofGathers(const Half& half) const {
-    Variance sum;
-    for (const Round& round : half.rounds) {
-      const double weight = round.rays / (kInHalf * half.rays[0]);
-      sum += spreadOf(round.values) * (static_cast<double>(round.values.size()) * weight * weight);
-    }
-    return sum;
-  }
-  Variance ofGathers() const {
-    Variance both = ofGathers(halves_[0]);
-    both += ofGathers(halves_[1]);
-    return both * (1. / 4);
-  }
-  std::array<Radiance, kInHalf> meansOfSolutions() const {
+  // From the spread of the means of the gathers of each solution; 0 if sets share none.
+  Variance ofSolutions() const {
+    if (!share_) return {};
     std::array<Radiance, kInHalf> means = halves_[0].means();
     const auto others = halves_[1].means();
     for (size_t k = 0; k < kInHalf; ++k) means[k] = (means[k] + others[k]) / 2;
-    return means;
-  }
-  // means: of the gathers of each solution.
-  Variance ofSolutions(std::span<const Radiance> means) const {
-    return spreadOf(means) * (tuning::RaySets::kOfSolutions / static_cast<double>(means.size()));
-  }
-  Variance withSolutions(const Variance& ofGathers, std::span<const Radiance> means) const {
-    if (!share_) return ofGathers;
-    const Variance ofMeans = ofSolutions(means);
-    return {combined(ofGathers.channels, ofMeans.channels, [](double x, double y) { return std::max(x, y); }),
-            std::max(ofGathers.brightness, ofMeans.brightness)};
+    return spreadOf(means) * (tuning::RaySets::kOfSolutions / kInHalf);
   }
 
   bool share_;  // whether sets share solutions
@@ -224,6 +216,7 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
   const auto valueOf = [&](const Radiance& mean) {
     return std::max(std::abs(photopicOf(mean.color, sampling)), floor_);
   };
+  const double margin = usesPatches ? tuning::RaySets::kOfGathers : tuning::Stopping::kMargin;
   addRound(0, first_);
   addRound(1, first_);
   for (bool goesOn = target_ > 0; goesOn;) {
@@ -238,24 +231,24 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
       asked[half] = std::min({rays, has * tuning::RaySets::kGrowth, most_});
       // Few rays more are not worth a round.
       if (!(asked[half] > tuning::RaySets::kLeastGrowth * has)) asked[half] = has;
-      return asked[half] > has;
     };
-    goesOn = false;
+    const auto asks = [&] { return asked[0] > all.raysOf(0) || asked[1] > all.raysOf(1); };
     for (const size_t half : {0, 1}) {
       const size_t other = 1 - half;
-      const double wanted = tuning::Stopping::kMargin * target_ * valueOf(all.mean(other));
-      const double excess = all.variance(other).brightness / (2 * wanted * wanted);
-      if (ask(half, all.raysOf(other) * excess)) goesOn = true;
+      const double wanted = margin * target_ * valueOf(all.mean(other));
+      const double excess = all.ofGathers(other).brightness / (2 * wanted * wanted);
+      ask(half, all.raysOf(other) * excess);
     }
-    if (!goesOn) {
-      const double wanted = target_ * valueOf(all.mean());
-      const double excess = all.variance().brightness / (wanted * wanted);
+    if (!asks()) {
+      const double wanted = target_ * valueOf(all.mean()), most = wanted * wanted;
+      const double excess = all.variance().brightness / most;
       const bool reached = !(excess > 1);  // also if both are 0
+      const bool helps = all.ofGathers().brightness > tuning::RaySets::kLargePart * most;
       answer.reached = reached || !(options_.accuracy > 0);
       for (const size_t half : {0, 1})
-        if (!reached && ask(half, all.raysOf(half) * std::max(excess, 2 * tuning::RaySets::kLeastGrowth)))
-          goesOn = true;
+        if (!reached && helps) ask(half, all.raysOf(half) * std::max(excess, tuning::RaySets::kAtLast));
     }
+    goesOn = asks();
     for (const size_t half : {0, 1})
       if (asked[half] > all.raysOf(half)) addRound(half, asked[half]);
   }

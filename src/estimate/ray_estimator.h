@@ -11,7 +11,7 @@
 // (coarse_solution.h), whose noise is common to all rays. The sets therefore use kSolutions independent
 // solutions in turn. The error is at least that which the spread of the solutions' means shows.
 //
-// -Sa: the sets are divided into two halves. The spread of one half decides how many rays the sets of the
+// -Sa: the sets are divided into two halves. The gathers of one half decide how many rays the sets of the
 // other half get, so that the number of rays does not depend on the values that are averaged: a half that
 // misses something bright seems less noisy than it is. If the stated error is still too large, all sets get
 // more rays; this causes the remaining bias (two_halves.h has measured it for points). Where the solutions

@@ -36,6 +36,13 @@ struct RaySets {
   static constexpr int kLeastGathers = 2;
   // Each round multiplies the number of rays by at most kGrowth, and at least kLeastGrowth if at all.
   static constexpr double kGrowth = 3, kLeastGrowth = 1.15;
+  // With patches: the error of gathers that halves request, relative to the accuracy. The rest is for the
+  // noise of patches, of which four solutions tell too little to decide on rays. Measured: true/stated by
+  // lamps is 1.16 with .7, and 1.09 with .76 (2026-11-30-sensors.txt).
+  static constexpr double kOfGathers = .75;
+  // -Sa: if the error is too large in the end, there are at least kAtLast times as many rays, unless the
+  // variance of gathers is below kLargePart of the accuracy's square: more rays would hardly help. Chosen.
+  static constexpr double kAtLast = 1.5, kLargePart = .3;
   // Factor on the variance that the spread of the solutions shows. It counts where it is larger than that of
   // the gathers, which happens by chance as well, because there are only four: with .8, errors are a
   // tenth too large where solutions have no noise, and a tenth too small where they have all of it.
