@@ -17,11 +17,6 @@ namespace {
 // distinguished from points.
 constexpr float kNarrowest = 1e-6f;
 
-V3d onDisk(const V3d& normal, double radius, double angle) {
-  const auto [x, y] = frame(normal);
-  return radius * std::cos(angle) * x + radius * std::sin(angle) * y;
-}
-
 // 1 - cosine of the angle with this squared sine, without loss of precision for small angles.
 double versineOf(double sine2) { return sine2 / (1 + std::sqrt(1 - sine2)); }
 
@@ -225,16 +220,16 @@ std::vector<BrightSpots::Node> BrightSpots::find(std::span<Particle> all, double
     *best = halves;
     chosen.push_back(halves + 1);
   }
-  std::vector<Node> nodes;
+  std::erase_if(chosen, [&](const Branch* branch) { return !isBright(branch); });
   double worth = 0;
-  for (const Branch* branch : chosen) {
-    if (!isBright(branch)) continue;
-    nodes.push_back(branch->node);
-    worth += branch->node.worth();
-  }
+  for (const Branch* branch : chosen) worth += branch->node.worth();
   if (!(worth > leastWorth * usual * power)) return {};
   if (empty()) usual_ = usual / kPi;
-  for (const Node& node : nodes) keep(node.spot);
+  std::vector<Node> nodes;
+  for (const Branch* branch : chosen) {
+    keep(branch->node.spot);
+    nodes.push_back(branch->node);
+  }
   return nodes;
 }
 
@@ -289,8 +284,9 @@ V3d BrightSpots::sample(const Aim& aim, double u1, double u2, double u3) const {
   size_t i = 0;
   while (i + 1 < aim.count && !(due < aim.sum[i])) ++i;
   const V3d axis = V3d(aim.x[i], aim.y[i], aim.z[i]).normalized();
-  const double versine = u2 * versineOf(aim.sine2[i]);
-  return onDisk(axis, std::sqrt(versine * (2 - versine)), 2 * kPi * u3) + (1 - versine) * axis;
+  const auto [x, y] = frame(axis);
+  const double versine = u2 * versineOf(aim.sine2[i]), sine = std::sqrt(versine * (2 - versine));
+  return sine * std::cos(2 * kPi * u3) * x + sine * std::sin(2 * kPi * u3) * y + (1 - versine) * axis;
 }
 
 RSPHERE_FOR_WIDTHS("avx2") double BrightSpots::density(const Aim& aim, const V3d& direction) const {

@@ -23,12 +23,8 @@ struct Share {
   double aimed, most;
 };
 Share shareOf(AimedAt kind) {
-  switch (kind) {
-    case AimedAt::openings:
-    case AimedAt::spots: return {tuning::GatherDirections::kAimed, 1 - 1. / 2};
-    case AimedAt::highlights: return {1, 1 - 3. / 4};
-  }
-  return {};
+  return kind == AimedAt::highlights ? Share{1, 1 - 3. / 4}
+                                     : Share{tuning::GatherDirections::kAimed, 1 - 1. / 2};
 }
 
 // The mean radiance (W/sr/m2) from directions that are not aimed. Where there are openings, two estimates are
