@@ -204,8 +204,8 @@ void LightVertices::Path::follow(Course& course) {
     arrive(at);
     beam_.length = 0;
     beam_.origin = at.point;
-    // Splitting: a path from a portal with more light than most, as of the sun through a frosted pane, goes on
-    // as several. A single one that a glossy floor reflects would be a bright spot on the ceiling.
+    // Splitting: a path from a portal with more light than most, as of the sun through a frosted pane, goes
+    // on as several. A single one that a glossy floor reflects would be a bright spot on the ceiling.
     size_t parts = 1;
     if (past_.source == kNone && course.met == 1)
       parts =
