@@ -1,5 +1,6 @@
 #include "spots/bright_spots.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,6 +108,37 @@ TEST(BrightSpots, AreBesideEachOfTwoTubes) {
                     other = "shining cylinder other\n0\n0\n7 2.4 2 2.93 3.6 2 2.93 .02\n";
   EXPECT_NEAR(shareOfTheFirstHalf(spotsOf(Traced(kRoom + one + other))), .5, .15);
   EXPECT_GT(shareOfTheFirstHalf(spotsOf(Traced(kRoom + one))), .9);
+}
+
+// Six tubes below a ceiling: the dark groups of particles had taken most of the number of spots, so that bands
+// of light of 1.5 m were spots as wide as they are long.
+TEST(BrightSpots, AreAsNarrowAsTheLightOfTubes) {
+  std::string room =
+      "void plastic white\n0\n0\n5 .6 .6 .6 0 0\nvoid light shining\n0\n0\n3 100 100 100\n"
+      "white polygon floor\n0\n0\n12 0 0 0 8 0 0 8 6 0 0 6 0\n"
+      "white polygon ceiling\n0\n0\n12 0 0 3 0 6 3 8 6 3 8 0 3\n"
+      "white polygon left\n0\n0\n12 0 0 0 0 6 0 0 6 3 0 0 3\n"
+      "white polygon right\n0\n0\n12 8 0 0 8 0 3 8 6 3 8 6 0\n"
+      "white polygon near\n0\n0\n12 0 0 0 0 0 3 8 0 3 8 0 0\n"
+      "white polygon far\n0\n0\n12 0 6 0 8 6 0 8 6 3 0 6 3\n";
+  for (int i = 0; i < 6; ++i) {
+    const double x = 1 + 2.3 * (i / 2), y = 1.5 + 3 * (i % 2);
+    room += fmt::format("shining cylinder tube\n0\n0\n7 {} {} 2.95 {} {} 2.95 .008\n", x, y, x + 1.45, y);
+  }
+  const V3d point(4, 3, 0);
+  const Traced traced(room);
+  const BrightSpots spots = spotsOf(traced);
+  BrightSpots::Aim aim;
+  spots.aim({point, V3d(0, 0, 1)}, aim);
+  ASSERT_GT(aim.mean, 0);
+  Random random(1);
+  Sample besideTube;
+  for (int i = 0; i < 4000; ++i) {
+    const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
+    const V3d direction = spots.sample(aim, u1, u2, u3), at = point + 3 / direction.z * direction;
+    besideTube.add(std::min(std::abs(at.y - 1.5), std::abs(at.y - 4.5)) < .1);
+  }
+  EXPECT_GT(besideTube.mean(), .45);  // .53; with dark groups .37
 }
 
 // The density of aimed directions is density(): the integral of a function over a cap, weighted with this
