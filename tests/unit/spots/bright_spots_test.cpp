@@ -110,8 +110,8 @@ TEST(BrightSpots, AreBesideEachOfTwoTubes) {
   EXPECT_GT(shareOfTheFirstHalf(spotsOf(Traced(kRoom + one))), .9);
 }
 
-// Six tubes below a ceiling: the dark groups of particles had taken most of the number of spots, so that bands
-// of light of 1.5 m were spots as wide as they are long.
+// Six tubes below a ceiling: the dark groups of particles had taken most of the number of spots, so that
+// bands of light of 1.5 m were spots as wide as they are long.
 TEST(BrightSpots, AreAsNarrowAsTheLightOfTubes) {
   std::string room =
       "void plastic white\n0\n0\n5 .6 .6 .6 0 0\nvoid light shining\n0\n0\n3 100 100 100\n"
