@@ -92,7 +92,7 @@ std::string RunSummary::accuracyText(const AnswerOptions& options) const {
   if (missed_.records == 0) return text;
   const double times = std::pow(largest / accuracy, 2);
   return text + fmt::format(": {:.{}f} times the {} would do", std::max(times, 1.1), times < 10 ? 1 : 0,
-                            options.sphereMode ? "directions (-Sx)" : "rays (runs by other -Sr)");
+                            options.sphereMode ? "directions (-Sx)" : "rays (mean of runs with other -Sr)");
 }
 
 void RunSummary::tell(const Messages& messages, const AnswerOptions& options,

@@ -34,7 +34,7 @@ class RunSummary {
   //   "UGR is infinite at 3 of 20 eyes; the first is record 7: ..."
   // Points or rays where the accuracy of -Sa was not reached:
   //   "-Sa: 37 of 40 sensors are within 1%; the largest error is 1.8% (record 12): 3.2 times the rays
-  //   (runs by other -Sr) would do"
+  //   (mean of runs with other -Sr) would do"
   std::vector<std::string> warnings(const AnswerOptions& options, const PreparedScene& prepared) const;
   // Writes these warnings. In a terminal it also reports that all records are within the accuracy of -Sa:
   //   "-Sa: 40 of 40 sensors are within 1%; the largest error is 0.93% (record 12)"

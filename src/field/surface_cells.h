@@ -29,7 +29,7 @@ struct CellKey {
   uint64_t chart = 0;  // identifies the side of the surface and the instances that contain it
   bool operator==(const CellKey&) const = default;
   uint64_t hash(int shift = 0) const;  // the same for all cells of a square of 2^shift x 2^shift
-  // Squares of 8 x 8 cells have buckets side by side, so that a surface's lie in few lines of the cache.
+  // Squares of 8 x 8 cells have buckets side by side, so that those of a surface fill few cache lines.
   uint64_t bucket() const { return hash(3) ^ static_cast<uint64_t>((i & 7) << 3 | (j & 7)); }
 };
 

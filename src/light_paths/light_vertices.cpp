@@ -112,7 +112,7 @@ class LightVertices::Path {
   Course send(double where);
 
  private:
-  void follow(Course& course);
+  void follow(Course& course);  // from where it left, or was reflected, to its end
   bool leave(double where);
   bool entersAgain(const Hit& hit) const;
   // Whether sharp reflections of light straight from a source are left out, as rtrace leaves them out.
@@ -206,14 +206,13 @@ void LightVertices::Path::follow(Course& course) {
     beam_.origin = at.point;
     // Splitting: a path from a portal with more light than most, as of the sun through a frosted pane, goes
     // on as several. A single one that a glossy floor reflects would be a bright spot on the ceiling.
-    size_t parts = 1;
-    if (past_.source == kNone && course.met == 1)
-      parts =
-          std::clamp<size_t>(brightness(beam_.power) / all_.pathPower(), 1, tuning::LightVertices::kMostHits);
-    beam_.power = beam_.power / static_cast<double>(parts);
+    const bool splits = past_.source == kNone && course.met == 1;
+    const double most = splits ? double{tuning::LightVertices::kMostHits} : 1;
+    const double parts = std::floor(std::clamp(brightness(beam_.power) / all_.pathPower(), 1., most));
+    beam_.power = beam_.power / parts;
     const Beam beam = beam_;
     const Past past = past_;
-    for (size_t i = 1; i < parts; ++i) {
+    for (int i = 1; i < parts; ++i) {
       if (reflect(at)) follow(course);
       beam_ = beam;
       past_ = past;

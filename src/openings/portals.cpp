@@ -10,7 +10,8 @@ Portals::Portals(const Openings& openings, double size, double samePlace)
   double brightest = 0;
   for (const Opening& o : openings.all()) brightest = std::max(brightest, o.radiance);
   for (const Opening& o : openings.all()) {
-    if (o.isHole + o.isIndoors + (o.radiance < tuning::Portals::kLeastRadiance * brightest) > 1) continue;
+    const bool isDim = o.radiance < tuning::Portals::kLeastRadiance * brightest;
+    if (o.isHole ? o.isIndoors || isDim : o.isIndoors && isDim) continue;
     portals_.push_back(o);
     portals_.back().corner -= lift_ * o.normal;
   }

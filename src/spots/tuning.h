@@ -36,7 +36,8 @@ struct BrightSpots {
   static constexpr double kTransmittance = .9;
   // The smallest number of particles that form a spot. Its power is then known within 29%, 1/sqrt(12).
   static constexpr size_t kFewest = 12;
-  // Spots are divided as long as this increases the worth of all of them by more than this fraction.
+  // Spots are divided as long as this adds more than this fraction to the worth of all. Measured: with 0, an
+  // office has 34 faint spots more, and its sensors .82 instead of .75% of noise.
   static constexpr double kLeastGain = .001;
   // Ratio of the radius of a spot to half the diagonal of the box around its particles. The box around n
   // evenly distributed points is smaller than the region that contains them, on average by (n - 1) / (n +

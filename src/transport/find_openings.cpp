@@ -58,10 +58,10 @@ class Probe {
     Seen seen;
     look(o, normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t number) {
       const double bright = brightness(tracer_.glimpse(point, direction, number));
-      int panes = o.isHole;
-      const auto last =
-          beyondPanes(t_.scene(), t_.tracer(), point, direction,
-                      [&](const Surface& surface) { return lightPasses(t_, surface) && ++panes > 0; });
+      int panes = o.isHole ? 1 : 0;  // behind a hole, the first pane counts: it is not the opening's own
+      const auto last = beyondPanes(t_.scene(), t_.tracer(), point, direction, [&](const Surface& surface) {
+        return lightPasses(t_, surface) && ++panes > 0;
+      });
       seen.all += bright / tuning::Caps::kProbes;
       if (last && last->hit.surface == kNone) {
         const double sky = brightness(tracer_.glimpse(last->origin, direction, 0)) / tuning::Caps::kProbes;
