@@ -103,7 +103,7 @@ class CoarseSolution {
               FieldRays& rays);
   double raysOf(const Frame& frame) const;
   const PatchLinks& linksOf(Patch& patch, FieldRays& rays);
-  Color lightBeyond(const PatchPlace& place, int bounces, FieldRays& rays);
+  LinearColor ofAllBounces(Patch& patch, FieldRays& rays, Color& inBands);
   LinearColor sumOf(const PatchLinks& links, int bounces, FieldRays& rays, Color& inBands);
 
   const Scene& scene_;
@@ -111,7 +111,8 @@ class CoarseSolution {
   double room_;
   Effort effort_;
   uint64_t rotation_;
-  int bounces_;  // whose light is computed: -ab, up to a limit
+  int bounces_;  // whose light is computed
+  int last_;     // one more if all bounces count, whose light is extrapolated
   int coarserLinks_;
   bool hasBands_;
   Color ambient_;

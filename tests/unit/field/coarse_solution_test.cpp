@@ -52,7 +52,7 @@ class FurnaceRays final : public FieldRays {
         const double u1 = random.uniform(), u2 = random.uniform();
         const SurfacePlace place = placeAlong(from, diffuseDirection(normal, u1, u2));
         links.addLight(beyond, Radiance(coefficient * shine_(place)));
-        coefficient *= kReflectance;
+        coefficient *= reflectance;
         // Some paths are continued, as if there were no patch.
         const bool goesOn = random.uniform() < .3;
         const PatchPlace to = solution_->find(place, *this, CoarseSolution::Asker::patch);
@@ -82,6 +82,7 @@ class FurnaceRays final : public FieldRays {
   }
 
   int linked = 0, served = 0, followed = 0, raysOfLast = 0;
+  double reflectance = kReflectance;
   double mean = 0;     // distance seen from all sites; 0: that along the normal
   double covered = 1;  // share of directions that hit something
 
@@ -132,50 +133,78 @@ TEST(CoarseSolution, LightIsTheGeometricSeriesInAFurnace) {
   EXPECT_LE(static_cast<size_t>(rays.linked), solution.patches()) << "a patch is linked once";
 }
 
-// The light of bounces beyond those that are computed falls as before.
+// A limit of 40 bounces is kept; a larger one means all, whose light is extrapolated.
 TEST(CoarseSolution, LightOfManyBouncesIsASeriesToo) {
-  constexpr int kBounces = 40;
   const Traced box(kBox);
-  FurnaceRays rays(box.prepared().tracer(), kBounces, [](const SurfacePlace&) { return 1; });
-  RayOptions options = optionsOf(kBounces);
-  options.ambientValue = Radiance(0);
-  CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), 1);
-  rays.solve(solution);
-  Random random(2);
-  int found = 0;
-  for (int i = 0; i < 12; ++i) {
-    const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
-    const PatchPlace on = solution.find(rays.placeAlong(from, randomDirection(random)), rays);
-    if (!on.patch) continue;
-    ++found;
-    const double all = 1 / (1 - kReflectance);
-    EXPECT_NEAR(solution.light(on, kBounces, rays).x, all * (1 - std::pow(kReflectance, kBounces)), 1e-4);
-    EXPECT_LT(solution.light(on, 12, rays).x, all * (1 - std::pow(kReflectance, 12)) + 1e-4);
+  for (const int limit : {30, 41, RayOptions::kAllBounces}) {
+    FurnaceRays rays(box.prepared().tracer(), limit, [](const SurfacePlace&) { return 1; });
+    RayOptions options = optionsOf(limit);
+    options.ambientValue = Radiance(0);
+    CoarseSolution solution(box.scene(), box.prepared().tracer().bounds(), fieldOptions(options), 1);
+    rays.solve(solution);
+    Random random(2);
+    int found = 0;
+    for (int i = 0; i < 12; ++i) {
+      const V3d from(between(random, .5, 3.5), between(random, .5, 2.5), between(random, .5, 2));
+      const PatchPlace on = solution.find(rays.placeAlong(from, randomDirection(random)), rays);
+      if (!on.patch) continue;
+      ++found;
+      const double all = 1 / (1 - kReflectance);
+      const double expected = limit > 30 ? all : all * (1 - std::pow(kReflectance, limit));
+      EXPECT_NEAR(solution.light(on, limit, rays).x, expected, 1e-5) << limit;
+      EXPECT_LT(solution.light(on, 12, rays).x, all * (1 - std::pow(kReflectance, 12)) + 1e-4);
+    }
+    EXPECT_GE(found, 4);
   }
-  EXPECT_GE(found, 4);
+}
+
+// The light of all bounces and of `bounces` bounces at a place, where some surfaces shine.
+struct Compared {
+  double all, some;
+};
+Compared compareBounces(const Traced& room, const std::function<double(const SurfacePlace&)>& shine,
+                        const V3d& from, const V3d& to, int bounces, double reflectance) {
+  FurnaceRays rays(room.prepared().tracer(), RayOptions::kAllBounces, shine);
+  rays.reflectance = reflectance;
+  RayOptions options = optionsOf(RayOptions::kAllBounces);
+  options.ambientValue = Radiance(0);
+  const auto light = [&](int limit) {
+    options.ambientBounces = limit;
+    CoarseSolution solution(room.scene(), room.prepared().tracer().bounds(), fieldOptions(options), 1);
+    rays.solve(solution);
+    SurfacePlace place = rays.placeAlong(from, to);
+    place.distance = 20;  // so that a patch serves it
+    const PatchPlace on = solution.find(place, rays);
+    return on.patch ? solution.light(on, limit, rays).x : 0;
+  };
+  return {light(RayOptions::kAllBounces), light(bounces)};
 }
 
 // Also between parallel surfaces, as of louvers, where only one shines: each then receives the light of every
 // other bounce alone.
 TEST(CoarseSolution, LightOfManyBouncesMayAlternate) {
-  constexpr int kBounces = 40, kComputed = 12;
+  constexpr int kBounces = 40;
   constexpr double kHeight = .01;
   const Traced gap("void plastic gray 0 0 5 .6 .6 .6 0 0\n" + roomOf("gray", V3d(4, 3, kHeight)));
-  FurnaceRays rays(gap.prepared().tracer(), kBounces,
-                   [](const SurfacePlace& place) { return place.point.z < kHeight / 2 ? 1 : 0; });
-  RayOptions options = optionsOf(kBounces);
-  options.ambientValue = Radiance(0);
-  CoarseSolution solution(gap.scene(), gap.prepared().tracer().bounds(), fieldOptions(options), 1);
-  rays.solve(solution);
   for (const double up : {-1., 1.}) {
-    SurfacePlace place = rays.placeAlong(V3d(2.1, 1.6, kHeight / 2), V3d(0, 0, up));
-    place.distance = 2;
-    const PatchPlace on = solution.find(place, rays);
-    ASSERT_TRUE(on.patch);
-    const double rest = solution.light(on, kBounces, rays).x - solution.light(on, kComputed, rays).x;
-    const double next = std::pow(kReflectance, up > 0 ? kComputed : kComputed + 1);
-    EXPECT_NEAR(rest, next / (1 - kReflectance * kReflectance), .1 * next) << up;
+    const Compared light = compareBounces(
+        gap, [](const SurfacePlace& place) { return place.point.z < kHeight / 2 ? 1 : 0; },
+        V3d(2.1, 1.6, kHeight / 2), V3d(0, 0, up), kBounces, kReflectance);
+    EXPECT_NEAR(light.all, (up > 0 ? 1 : kReflectance) / (1 - kReflectance * kReflectance), .01) << up;
+    EXPECT_NEAR(light.all, light.some, 1e-3) << up;
   }
+}
+
+// At the bottom of a white well, light still grows from bounce to bounce where it falls already at the top.
+TEST(CoarseSolution, LightOfManyBouncesReachesTheBottomOfAWell) {
+  constexpr double kDepth = 6;
+  const Traced well("void plastic white 0 0 5 .8 .8 .8 0 0\n" + roomOf("white", V3d(1, 1, kDepth)));
+  const auto shine = [](const SurfacePlace& place) { return place.point.z > kDepth - 1e-3 ? 1 : 0; };
+  const V3d from(.4, .6, .5), down(0, 0, -1);
+  const Compared light = compareBounces(well, shine, from, down, 40, .8);
+  ASSERT_GT(light.some, 0);
+  EXPECT_NEAR(light.all / light.some, 1, .015);
+  EXPECT_LT(compareBounces(well, shine, from, down, 16, .8).some, .94 * light.some) << "or nothing is told";
 }
 
 // The rays that the patch of a place on the floor of the box has, for a room of this size.
