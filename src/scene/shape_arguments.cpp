@@ -15,13 +15,9 @@ namespace {
 using rad::Type;
 using rad::Warn;
 
-std::optional<Shape> illegalRadii(const PrimitiveArguments& a, const Warn& warn) {
-  a.warn(warn, "illegal radii");
-  return std::nullopt;
-}
-
-std::optional<Shape> unknownOrientation(const PrimitiveArguments& a, const Warn& warn) {
-  a.warn(warn, "unknown orientation");
+// The answer for a shape that is left out, with a warning.
+std::nullopt_t leftOut(const PrimitiveArguments& a, const Warn& warn, std::string_view why) {
+  a.warn(warn, why);
   return std::nullopt;
 }
 
@@ -31,14 +27,6 @@ void needTraceable(const PrimitiveArguments& a) {
   for (const double real : a.reals())
     if (std::abs(real) > std::numeric_limits<float>::max())
       a.fail(fmt::format("{:g} is too large: coordinates and sizes must be below 3.4e38", real));
-}
-
-std::optional<Shape> finishCone(const PrimitiveArguments& a, const Warn& warn, Cone cone) {
-  if (!(cone.radius0 > 0 || cone.radius1 > 0)) return illegalRadii(a, warn);
-  cone.length = cone.axis.length();
-  if (!(cone.length > 0)) return unknownOrientation(a, warn);
-  cone.axis /= cone.length;
-  return cone;
 }
 
 }  // namespace
@@ -57,10 +45,7 @@ std::optional<Polygon> readPolygon(const PrimitiveArguments& a, const Warn& warn
     a.fail("more vertices than can be numbered");
   const Polygon polygon = makePolygon(vertices, a.firstVertex(), static_cast<uint32_t>(count));
   const double area = areaOf(polygon, vertices);
-  if (area == 0) {
-    a.warn(warn, "zero area");
-    return std::nullopt;
-  }
+  if (area == 0) return leftOut(a, warn, "zero area");
   // Deviations of a thousandth of the size are visible; rounding in files of single precision is far smaller.
   if (thicknessOf(polygon, vertices) > 1e-3 * std::sqrt(area)) a.warn(warn, "non-planar vertex");
   return polygon;
@@ -87,13 +72,17 @@ std::optional<Shape> readCone(const PrimitiveArguments& a, const Warn& warn) {
   const bool inward = a.type() == Type::cup || a.type() == Type::tube;
   Cone cone{a.vector(0), a.vector(3) - a.vector(0), 0, r[6], r.back(), inward};
   if (cone.radius0 < 0 || cone.radius1 < 0) {
-    if (cone.radius0 > 0 || cone.radius1 > 0) return illegalRadii(a, warn);
+    if (cone.radius0 > 0 || cone.radius1 > 0) return leftOut(a, warn, "illegal radii");
     a.warn(warn, cylinder ? "negative radius" : "negative radii");
     cone.radius0 = -cone.radius0;
     cone.radius1 = -cone.radius1;
     cone.inward = !cone.inward;
   }
-  return finishCone(a, warn, cone);
+  if (!(cone.radius0 > 0 || cone.radius1 > 0)) return leftOut(a, warn, "illegal radii");
+  cone.length = cone.axis.length();
+  if (!(cone.length > 0)) return leftOut(a, warn, "unknown orientation");
+  cone.axis /= cone.length;
+  return cone;
 }
 
 std::optional<Shape> readRing(const PrimitiveArguments& a, const Warn& warn) {
@@ -101,8 +90,8 @@ std::optional<Shape> readRing(const PrimitiveArguments& a, const Warn& warn) {
   needTraceable(a);
   const auto r = a.reals();
   const double length = a.vector(3).length();
-  if (r[6] < 0 || r[7] < 0 || r[6] == r[7]) return illegalRadii(a, warn);
-  if (!(length > 0)) return unknownOrientation(a, warn);
+  if (r[6] < 0 || r[7] < 0 || r[6] == r[7]) return leftOut(a, warn, "illegal radii");
+  if (!(length > 0)) return leftOut(a, warn, "unknown orientation");
   return Ring{a.vector(0), a.vector(3) / length, std::min(r[6], r[7]), std::max(r[6], r[7])};
 }
 
