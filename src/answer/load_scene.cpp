@@ -21,11 +21,7 @@ Scene loadScene(const AnswerOptions& options, const rad::Warn& warn) {
   }
   Scene scene = buildScene(rad::readScene(options.scene, read), read, options.goals);
   addSensors(scene, options.sensors);
-  if (options.separate) {
-    std::vector<std::string> goals = options.goals;
-    for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
-    separateContributors(scene, goals);
-  }
+  if (options.separate) separateContributors(scene, options.goals);
 #ifdef __GLIBC__
   // Growing lists of a large scene were moved, which leaves unused gaps of megabytes; this returns them.
   malloc_trim(0);

@@ -506,11 +506,10 @@ struct Scene::Implementation {
   std::shared_ptr<const rsphere::Scene> sceneFor(const rsphere::Options& options) const {
     if (!options.separate) return scene_;
     auto copy = std::make_shared<rsphere::Scene>(*scene_);
-    std::vector<std::string> goals = options.goals;
-    if (!goals.empty() || !options.sensors.empty()) setGoals(*copy, goals);
+    const bool own = !options.goals.empty() || !options.sensors.empty();
+    if (own) setGoals(*copy, options.goals);
     addSensors(*copy, options.sensors);
-    for (std::string& name : namesOfSensors(options.sensors.size())) goals.push_back(std::move(name));
-    separateContributors(*copy, goals.empty() ? goals_ : goals);
+    separateContributors(*copy, own ? options.goals : goals_);
     return copy;
   }
 

@@ -55,12 +55,16 @@ void setGoals(Scene& scene, std::span<const std::string> goals) {
 
 void separateContributors(Scene& scene, std::span<const std::string> goals) {
   std::vector<std::string> names;
-  for (const std::string& goal : goals) {
+  const auto addGoal = [&](const std::string& goal) {
     if (positionOf(names, goal) < names.size())
       throw rad::Error(fmt::format("-Sg {}: the goal is given twice", goal));
     names.push_back(goal);
-  }
-  if (goals.empty())
+  };
+  std::ranges::for_each(goals, addGoal);
+  for (const Finish& finish : scene.surfaces.finishes())
+    if (finish.sensor) addGoal(finish.name);
+  const bool ofLamps = names.empty();
+  if (ofLamps)
     for (const Modifier* modifier : emittersOf(scene))
       if (const std::string& name = modifier->decoded.name; positionOf(names, name) == names.size())
         names.push_back(name);
@@ -73,7 +77,7 @@ void separateContributors(Scene& scene, std::span<const std::string> goals) {
     if (finish.goal)
       finish.importance = Radiance(
           Color::ofContributor(finish.importance.color.rgb(), positionOf(names, finish.name), parts));
-  if (goals.empty())
+  if (ofLamps)
     for (Modifier* modifier : emittersOf(scene)) {
       Color& emission = *emissionOf(*modifier);
       emission = Color::ofContributor(emission.rgb(), positionOf(names, modifier->decoded.name), parts);

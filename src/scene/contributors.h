@@ -16,9 +16,9 @@ inline constexpr size_t kMostContributors = 1000;
 
 // Divides each color into parts, one for the light of each contributor (BandScheme::ofContributors), and sets
 // Scene::contributors. The contributors are the goals, in the order of `goals`, the list passed to
-// setGoals(). Without goals they are the modifiers of type light, illum, glow and spotlight that emit, in the
-// order of the scene. Modifiers with the same name are one contributor. Throws rad::Error if there are none
-// or more than kMostContributors, or if a goal is named twice.
+// setGoals(), and then the sensors (addSensors()). Without any they are the modifiers of type light, illum,
+// glow and spotlight that emit, in the order of the scene. Modifiers with the same name are one contributor.
+// Throws rad::Error if there are none or more than kMostContributors, or if a goal is named twice.
 void separateContributors(Scene& scene, std::span<const std::string> goals);
 
 }  // namespace rsphere

@@ -71,12 +71,6 @@ std::vector<Sensor> sensorsOf(std::span<const double> numbers, const std::string
   return sensors;
 }
 
-std::vector<std::string> namesOfSensors(size_t count) {
-  std::vector<std::string> names;
-  for (size_t i = 1; i <= count; ++i) names.push_back(fmt::format("sensor{}", i));
-  return names;
-}
-
 void addSensors(Scene& scene, std::span<const Sensor> sensors) {
   if (sensors.empty()) return;
   if (scene.vertices.size() + 4 * sensors.size() > std::numeric_limits<uint32_t>::max())
@@ -95,12 +89,11 @@ void addSensors(Scene& scene, std::span<const Sensor> sensors) {
   // The world's surfaces precede those of octrees and meshes, and only they can be light sources.
   const auto file = static_cast<uint32_t>(scene.description.files.size());
   scene.description.files.push_back({.name = "sensors", .numbered = false});
-  const std::vector<std::string> names = namesOfSensors(more);
   uint32_t number = 0;
   // In a small scene the side is less than kSensorSide.
   const double side = kSensorSide * (scene.samePlace / kSamePlace);
   for (const Sensor& sensor : movedApart(sensors, side)) {
-    const std::string& name = names[number++];
+    const std::string name = fmt::format("sensor{}", ++number);
     Finish finish;
     finish.goal = finish.sensor = true;
     finish.importance = Radiance(1 / (side * side));

@@ -20,10 +20,7 @@ struct Sensor {
 // 1.
 std::vector<Sensor> sensorsOf(std::span<const double> numbers, const std::string& name);
 
-// The names of the sensors as contributors: "sensor1" and so on.
-std::vector<std::string> namesOfSensors(size_t count);
-
-// Adds sensors as goals: light sources whose radiance times area is 1 W/sr, so that each contributes like a
+// Adds sensors as goals, named "sensor1" and so on: light sources whose radiance times area is 1 W/sr, so that each contributes like a
 // goal of area 1. All other sources, except goals from setGoals(), are dark. A sensor is a square of side
 // kSensorSide that is hit only by rays aimed at it: it neither blocks nor reflects light. Sensors in the same
 // place are moved apart by two sides. Throws rad::Error if there are too many to be numbered.
