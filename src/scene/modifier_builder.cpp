@@ -177,23 +177,15 @@ Alternate ModifierBuilder::alternate(PrimitiveId i, const AlternatingArguments& 
   return {Alternate::Kind::pass, kNone};
 }
 
-// The modifier that WGMDfunc names for a component. None is needed if the component reflects or transmits
-// nothing.
-std::optional<ModifierId> ModifierBuilder::componentModifier(PrimitiveId i, std::string_view name,
-                                                             bool used) {
-  if (!used || name == "inherit") return std::nullopt;
-  return named(i, name);
-}
-
 ModifierBuilder::Made ModifierBuilder::wgmd(PrimitiveId i, WgmdArguments read) {
   WgmdFunction& made = read.values;
-  const auto use = [&](WgmdFunction::Lobe& lobe, std::string_view name) {
-    lobe.modifier = componentModifier(i, name, lobe.share > kNegligible);
+  // No modifier is needed for a component that reflects or transmits nothing.
+  const auto use = [&](std::string_view name, double share) {
+    return share > kNegligible && name != "inherit" ? std::optional(named(i, name)) : std::nullopt;
   };
-  use(made.reflected, read.reflected.modifier);
-  use(made.transmitted, read.transmitted.modifier);
-  const bool diffusesThrough = maxChannel(made.diffuseTransmitted) > kNegligible;
-  made.diffuseTransmittedModifier = componentModifier(i, read.diffuseTransmittedModifier, diffusesThrough);
+  made.reflected.modifier = use(read.reflected.modifier, made.reflected.share);
+  made.transmitted.modifier = use(read.transmitted.modifier, made.transmitted.share);
+  made.diffuseTransmittedModifier = use(read.diffuseTransmittedModifier, maxChannel(made.diffuseTransmitted));
   return read;
 }
 

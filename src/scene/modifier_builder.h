@@ -64,7 +64,6 @@ class ModifierBuilder {
   template <class Arguments>
   Made mixture(PrimitiveId i, Arguments read);
   Alternate alternate(PrimitiveId i, const AlternatingArguments& arguments);
-  std::optional<ModifierId> componentModifier(PrimitiveId i, std::string_view name, bool used);
   Made wgmd(PrimitiveId i, WgmdArguments read);
   Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
   void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);
