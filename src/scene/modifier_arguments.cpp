@@ -83,16 +83,8 @@ TextArguments readText(const PrimitiveArguments& a) {
   const size_t channels = a.type() == Type::mixtext ? 0 : a.type() == Type::brighttext ? 1 : 3;
   const size_t end = 9 + 2 * channels;
   a.needAtLeast(first + 2, end);
-  TextArguments text{readMixed(a),
-                     a.string(first),
-                     a.string(first + 1),
-                     a.stringsFrom(first + 2),
-                     a.vector(0),
-                     a.vector(3),
-                     a.vector(6),
-                     {},
-                     {},
-                     {}};
+  TextArguments text{readMixed(a), a.string(first), a.string(first + 1), a.stringsFrom(first + 2),
+                     a.vector(0),  a.vector(3),     a.vector(6)};
   const auto reals = a.reals();
   for (size_t i = 0; i < channels; ++i) {
     text.foreground.push_back(reals[9 + i]);
@@ -196,9 +188,9 @@ AlternatingArguments readAlternating(const PrimitiveArguments& a) {
   return {a.color(0), a.strings() ? std::optional(a.string(0)) : std::nullopt};
 }
 
-AntimatterArguments readAntimatter(const PrimitiveArguments& a) {
+Words readAntimatter(const PrimitiveArguments& a) {
   a.needAtLeast(1);
-  return {a.stringsFrom(0)};
+  return a.stringsFrom(0);
 }
 
 // ---- materials with functions

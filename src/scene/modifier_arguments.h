@@ -63,10 +63,10 @@ PictureArguments readPicture(const PrimitiveArguments& arguments);
 struct TextArguments {
   Mixed mixed;
   std::string_view font, file;
-  Words words;                                 // the text; empty if it is in the file
-  V3d anchor, right, down;                     // world units
-  std::vector<double> foreground, background;  // by channel: 1, 3, or none for mixtext
-  std::optional<double> spacing;               // between characters; empty: that of the font
+  Words words;                                     // the text; empty if it is in the file
+  V3d anchor, right, down;                         // world units
+  std::vector<double> foreground{}, background{};  // by channel: 1, 3, or none for mixtext
+  std::optional<double> spacing{};                 // between characters; empty: that of the font
 };
 TextArguments readText(const PrimitiveArguments& arguments);
 
@@ -110,10 +110,8 @@ struct AlternatingArguments {
 };
 AlternatingArguments readAlternating(const PrimitiveArguments& arguments);
 
-struct AntimatterArguments {
-  Words clipped;  // names of modifiers; the first one also shades the cut
-};
-AntimatterArguments readAntimatter(const PrimitiveArguments& arguments);
+// The names of the modifiers that are clipped; the first one also shades the cut.
+Words readAntimatter(const PrimitiveArguments& arguments);
 
 // ---- materials with functions. The readers leave `functions` and indices of modifiers in `values` unset.
 

@@ -189,11 +189,11 @@ ModifierBuilder::Made ModifierBuilder::wgmd(PrimitiveId i, WgmdArguments read) {
   return read;
 }
 
-Material ModifierBuilder::antimatter(PrimitiveId i, const AntimatterArguments& arguments) {
+Material ModifierBuilder::antimatter(PrimitiveId i, const Words& clipped) {
   const PrimitiveArguments own(scene_.description, i);
   Antimatter made;
-  for (size_t k = 0; k < arguments.clipped.size(); ++k) {
-    const std::string_view name = arguments.clipped[k];
+  for (size_t k = 0; k < clipped.size(); ++k) {
+    const std::string_view name = clipped[k];
     if (name == "void") continue;
     const PrimitiveId described = definedBefore(i, name);
     if (described == rad::kVoid) {

@@ -65,7 +65,7 @@ class ModifierBuilder {
   Made mixture(PrimitiveId i, Arguments read);
   Alternate alternate(PrimitiveId i, const AlternatingArguments& arguments);
   Made wgmd(PrimitiveId i, WgmdArguments read);
-  Material antimatter(PrimitiveId i, const AntimatterArguments& arguments);
+  Material antimatter(PrimitiveId i, const Words& clipped);
   void warnOfExcess(PrimitiveId i, const Material& material, ModifierId next);
   void warnOfNegativeLight(PrimitiveId i, const Material& material);
   void warnOnce(PrimitiveId i, const std::string& text);
