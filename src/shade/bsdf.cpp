@@ -21,11 +21,6 @@ constexpr double kBelowOne = 1 - 0x1p-53;
 
 // ---- color
 
-Tristimulus operator*(const Tristimulus& c, double f) { return {c.x * f, c.y * f, c.z * f}; }
-Tristimulus operator-(const Tristimulus& a, const Tristimulus& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 // CIE 1976 u', v'.
 Tristimulus ofChromaticity(double y, double u, double v) {
   if (!(v > 0)) return {y, y, y};
@@ -45,20 +40,17 @@ class Smallest {
  public:
   void add(const Tristimulus& c) {
     y_ = std::min(y_, c.y);
-    const V3d sharp = V3d(c.x, c.y, c.z) * kSharpFromXyz;
+    const V3d sharp = c * kSharpFromXyz;
     for (int i = 0; i < 3; ++i) sharp_[i] = std::min(sharp_[i], sharp[i]);
   }
   void addGrey(double y) { y_ = std::min(y_, y); }
   // 1/sr; 0 if it is negligible.
-  Tristimulus grey() const { return kept({y_, y_, y_}); }
-  Tristimulus colored() const {
-    const V3d c = sharp_ * kXyzFromSharp;
-    return kept({c.x, c.y, c.z});
-  }
+  Tristimulus grey() const { return kept(Tristimulus(y_)); }
+  Tristimulus colored() const { return kept(sharp_ * kXyzFromSharp); }
 
  private:
   static Tristimulus kept(const Tristimulus& c) {
-    return c.y > kLeastDiffuse && c.y < std::numeric_limits<float>::max() ? c : Tristimulus{};
+    return c.y > kLeastDiffuse && c.y < std::numeric_limits<float>::max() ? c : Tristimulus(0);
   }
   double y_ = std::numeric_limits<float>::max();
   V3d sharp_{y_, y_, y_};
@@ -159,7 +151,7 @@ class MatrixScattering final : public DirectedScattering {
     if (!i || !o) return {};
     const size_t at = *o * in_.cells + *i;
     const double y = y_[at];
-    return {x_.empty() ? Tristimulus{y, y, y} : Tristimulus{x_[at], y, z_[at]},
+    return {x_.empty() ? Tristimulus(y) : Tristimulus(x_[at], y, z_[at]),
             std::min(in_.ringOf(*i).projectedSolidAngle, out_.ringOf(*o).projectedSolidAngle), at};
   }
 
@@ -452,7 +444,7 @@ class TreeScattering final : public DirectedScattering {
     Smallest smallest;
     collect(smallest, colored, 0, 0, 0, true);
     diffuse = colored ? smallest.colored() : smallest.grey();
-    if (!colored && diffuse.y >= kMostDiffuseTree) diffuse = {};
+    if (!colored && diffuse.y >= kMostDiffuseTree) diffuse = Tristimulus(0);
     diffuse_ = diffuse;
     for (auto& node : trees_.y.nodes) node.value = std::max(0.F, static_cast<float>(node.value - diffuse.y));
     straight_ = Means(trees_.y, rank, false);
@@ -470,7 +462,7 @@ class TreeScattering final : public DirectedScattering {
     const Coordinates p = point(swap ? other : view, swap ? view : other);
     const Leaf leaf = find(trees_.y, rank_, p);
     const double y = trees_.y.nodes[leaf.node].value;
-    Tristimulus value{y, y, y};
+    Tristimulus value(y);
     if (y > 0 && !trees_.u.nodes.empty()) {
       const double u = trees_.u.nodes[find(trees_.u, rank_, p).node].value;
       const double v = trees_.v.nodes[find(trees_.v, rank_, p).node].value;
@@ -588,7 +580,7 @@ class TreeScattering final : public DirectedScattering {
 
 Color rgbOf(const Tristimulus& c) {
   if (c.x == c.y && c.z == c.y) return Color(c.y, c.y, c.y);
-  const V3d rgb = standardRgb(V3d(c.x, c.y, c.z));
+  const V3d rgb = standardRgb(c);
   return Color(std::max(0., rgb.x), std::max(0., rgb.y), std::max(0., rgb.z));
 }
 
@@ -601,7 +593,7 @@ BsdfData::BsdfData(const BsdfFile& file, std::string_view name, const rad::Warn&
   for (size_t i = 0; i < BsdfFile::kComponents; ++i) {
     const bool front = i == BsdfFile::kReflectionFront || i == BsdfFile::kTransmissionFront;
     const bool across = i == BsdfFile::kTransmissionFront || i == BsdfFile::kTransmissionBack;
-    Tristimulus diffuse;
+    Tristimulus diffuse(0);
     if (file.matrices[i])
       made[i] =
           std::make_unique<MatrixScattering>(*file.matrices[i], file.bases, front, front != across, diffuse);

@@ -18,10 +18,7 @@
 
 namespace rsphere {
 
-// Tristimulus values; y is luminance.
-struct Tristimulus {
-  double x = 0, y = 0, z = 0;
-};
+using Tristimulus = V3d;  // y is luminance
 // Converts to RADIANCE's primaries and white point. Colors outside their gamut are mixed with gray of the
 // same luminance until no channel is negative.
 Color rgbOf(const Tristimulus& c);
@@ -41,7 +38,7 @@ class DirectedScattering {
 
   // A cell of the data for a pair of directions: the view and the other direction.
   struct Cell {
-    Tristimulus value;               // 1/sr, without the diffuse part
+    Tristimulus value{0, 0, 0};      // 1/sr, without the diffuse part
     double projectedSolidAngle = 0;  // sr: of the view's cell or of the other direction's, the smaller one
     uint64_t number = 0;
   };
