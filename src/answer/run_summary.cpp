@@ -1,5 +1,6 @@
 #include "answer/run_summary.h"
 
+#include <Imath/ImathBoxAlgo.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -18,11 +19,7 @@ constexpr double kFar = 30;
 bool isFarAway(const V3d& point, const Box3d& scene) {
   if (scene.isEmpty()) return false;
   const V3d size = scene.max - scene.min;
-  double distance2 = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double outside = std::max({0., scene.min[axis] - point[axis], point[axis] - scene.max[axis]});
-    distance2 += outside * outside;
-  }
+  const double distance2 = (point - Imath::clip(point, scene)).length2();
   return size.length2() > 0 && distance2 > kFar * kFar * size.length2();
 }
 

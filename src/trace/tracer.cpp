@@ -1,5 +1,7 @@
 #include "trace/tracer.h"
 
+#include <Imath/ImathBoxAlgo.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -113,11 +115,7 @@ struct Query {
   }
 };
 
-double distanceTo(const Box3d& box, const V3d& point) {
-  V3d out;
-  for (int i = 0; i < 3; ++i) out[i] = std::max({box.min[i] - point[i], 0., point[i] - box.max[i]});
-  return out.length();
-}
+double distanceTo(const Box3d& box, const V3d& point) { return (point - Imath::clip(point, box)).length(); }
 
 // Whether the shape is a polygon or ring in the plane of the neighborhood.
 bool liesInPlane(ShapeRef shape, const Tracer::Neighborhood& around) {
