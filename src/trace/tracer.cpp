@@ -422,11 +422,7 @@ class Tracer::Tree {
     TriangleHit hit;
     if (!intersect(mesh_->data, primitive, query.origin, query.direction, query.reach(), hit, query.nearest))
       return false;
-    const Owner owner = triangleOwner(primitive, query.standIn);
-    if (query.loses(owner, hit.hit)) return false;
-    query.best.owner = owner;
-    query.best.hit = hit.hit;
-    query.best.path.count = query.best.modifierPath = query.depth;
+    if (!take(query, triangleOwner(primitive, query.standIn), hit.hit)) return false;
     query.best.mesh = &mesh_->data;
     query.best.triangle = primitive;
     query.best.triangleHit = hit;
@@ -568,11 +564,7 @@ struct Tracer::Embree {
 
   // Whether a stopped shadow ray hits a surface that may refract it before it is stopped.
   bool refractsBefore(Query& query) const {
-    Query bent;
-    bent.origin = query.origin;
-    bent.direction = query.direction;
-    bent.farthest = query.stop;
-    bent.samePlace = query.samePlace;
+    Query bent = this->query(query.origin, query.direction, query.stop, kNone);
     bent.nearest = query.nearest;
     refracting[0]->nearest(bent);
     const Found& found = bent.best;
