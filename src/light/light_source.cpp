@@ -86,7 +86,6 @@ LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
   const auto v = std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
   LightSource source;
   for (const V3d& p : v) source.center += p / static_cast<double>(v.size());
-  for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
   source.hitsWhereAimed = isFlat(polygon, scene.vertices);
   PlaneLight light{.normal = polygon.normal, .area = areaOf(polygon, scene.vertices)};
   if (isParallelogram(v)) {
@@ -98,17 +97,15 @@ LightSource sourceOf(const Polygon& polygon, const Scene& scene) {
     if (convex || scene.importance) {
       PlaneLight::Triangles triangles = trianglesOf(v, polygon.normal);
       for (double& a : triangles.areas) a /= triangles.areas.back();
-      if (!convex) {  // the mean of its vertices may lie outside
+      if (!convex)  // the mean of its vertices may lie outside
         source.center = triangles.at(triangles.triangleAt(.5), .5, .5);
-        source.radius = 0;
-        for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
-      }
       light.map = std::move(triangles);
     } else {  // some samples miss the polygon
       light.map = PlaneLight::Square{};
       source.hitsWhereAimed = false;
     }
   }
+  for (const V3d& p : v) source.radius = std::max(source.radius, (p - source.center).length());
   measure(light);
   source.shape = std::move(light);
   return source;
