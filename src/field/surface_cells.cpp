@@ -66,15 +66,12 @@ std::optional<SurfaceChart> SurfaceChart::of(const Scene& scene, const CellGrid&
   chart.emplace();
   chart->scene_ = &scene;
   chart->surface_ = place.surface;
-  const bool has = visit(Overloaded{
-                             [&](const Sphere& ball) { return chart->setBall(ball, place); },
-                             [&](const Cone& cone) { return chart->setCone(cone, place); },
-                             [&](const Polygon& polygon) { return chart->setPolygon(polygon, place); },
-                             [&](const Ring& ring) { return chart->setRing(ring, place); },
-                             [](const Distant&) { return false; },
-                             [](const NestedShape auto&) { return false; },
-                         },
-                         scene.surfaces[place.surface].shape);
+  const bool has = match(
+      scene.surfaces[place.surface].shape, [&](const Sphere& ball) { return chart->setBall(ball, place); },
+      [&](const Cone& cone) { return chart->setCone(cone, place); },
+      [&](const Polygon& polygon) { return chart->setPolygon(polygon, place); },
+      [&](const Ring& ring) { return chart->setRing(ring, place); }, [](const Distant&) { return false; },
+      [](const NestedShape auto&) { return false; });
   if (!has) chart.reset();
   return chart;
 }
@@ -219,16 +216,15 @@ CellKey SurfaceChart::cellAt(const CellGrid& grid, int level, double u, double v
 bool SurfaceChart::holds(const V3d& point) const {
   if (surface_ == kPlane) return true;
   const V3d local = placement_ ? placement_->toInner.point(point) : point;
-  return visit(Overloaded{
-                   [&](const Polygon& polygon) { return inside(polygon, scene_->vertices, local); },
-                   [&](const Ring& ring) {
-                     const double radius = (local - ring.center).length();
-                     return radius >= ring.inner && radius <= ring.outer;
-                   },
-                   [](const OneOf<Sphere, Cone, Distant> auto&) { return true; },  // not plane
-                   [](const NestedShape auto&) { return true; },
-               },
-               scene_->surfaces[surface_].shape);
+  return match(
+      scene_->surfaces[surface_].shape,
+      [&](const Polygon& polygon) { return inside(polygon, scene_->vertices, local); },
+      [&](const Ring& ring) {
+        const double radius = (local - ring.center).length();
+        return radius >= ring.inner && radius <= ring.outer;
+      },
+      [](const OneOf<Sphere, Cone, Distant> auto&) { return true; },  // not plane
+      [](const NestedShape auto&) { return true; });
 }
 
 std::optional<GatherSite> SurfaceChart::siteAt(const CellGrid& grid, double u, double v) const {
