@@ -52,9 +52,7 @@ void add(Fingerprint& print, const Ring& r, const Scene&) {
 }
 void add(Fingerprint& print, const Distant& d, const Scene&) { addAll(print, d.direction, d.halfAngle); }
 // Their placements are string arguments in the description.
-void add(Fingerprint&, const Instance&, const Scene&) {}
-void add(Fingerprint&, const MeshInstance&, const Scene&) {}
-void add(Fingerprint&, const MeshFaces&, const Scene&) {}
+void add(Fingerprint&, const NestedShape auto&, const Scene&) {}
 
 void add(Fingerprint& print, const rad::Mesh& mesh) {
   for (const auto& vertex : mesh.positions)
