@@ -69,25 +69,6 @@ class Warnings {
   std::vector<std::string> texts_;
 };
 
-// Calls `work` and converts internal exceptions to public ones. passWarnings() is called in either case.
-template <typename PassWarnings, typename Work>
-auto guarded(const PassWarnings& passWarnings, const Work& work) {
-  const auto fault = [&](const std::string& text, Error::Cause cause) {
-    passWarnings();
-    return Error(text, cause);
-  };
-  try {
-    auto result = work();
-    passWarnings();
-    return result;
-  } catch (const rad::Error& error) {
-    throw fault(error.what(),
-                error.status() == rad::Status::input ? Error::Cause::input : Error::Cause::system);
-  } catch (const Stopped&) {
-    throw fault("stopped", Error::Cause::stopped);
-  }
-}
-
 // The scene, prepared for a set of options. Warnings may be added later, while it is in use.
 struct PreparedScene {
   PreparedScene(std::shared_ptr<const rsphere::Scene> of, const rsphere::Options& options)
@@ -99,16 +80,30 @@ struct PreparedScene {
   Transport transport;
 };
 
-// Calls work(prepared, warn), and passes on its warnings and those of the scene that it has set.
-template <typename Work>
-auto passingWarnings(const Options& options, const Work& work) {
+// Calls work(prepared, warn) and converts internal exceptions to public ones. In either case passes on the
+// warnings, also those of the scene that `work` has set.
+template <typename SomeOptions, typename Work>
+auto passingWarnings(const SomeOptions& options, const Work& work) {
   Warnings warnings;
   std::shared_ptr<PreparedScene> prepared;
   const auto passWarnings = [&] {
     if (prepared) prepared->warnings.passOn(options.warn);
     warnings.passOn(options.warn);
   };
-  return guarded(passWarnings, [&] { return work(prepared, warnings.collector()); });
+  const auto fault = [&](const std::string& text, Error::Cause cause) {
+    passWarnings();
+    return Error(text, cause);
+  };
+  try {
+    auto result = work(prepared, warnings.collector());
+    passWarnings();
+    return result;
+  } catch (const rad::Error& error) {
+    throw fault(error.what(),
+                error.status() == rad::Status::input ? Error::Cause::input : Error::Cause::system);
+  } catch (const Stopped&) {
+    throw fault("stopped", Error::Cause::stopped);
+  }
 }
 
 rsphere::Options optionsFor(const rsphere::Scene& scene, rsphere::Options options) {
@@ -567,21 +562,18 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
 }
 
 Scene::Scene(const std::vector<std::string>& files, const SceneOptions& options) {
-  Warnings warnings;
-  implementation_ = guarded(
-      [&] { warnings.passOn(options.warn); },
-      [&] {
-        if (files.empty())
-          throw rad::Error("a scene needs at least one file: an octree, scene text or '!command'");
-        for (const std::string& file : files)
-          if (file.find('\0') != std::string::npos)
-            throw rad::Error(fmt::format("the file name \"{}\" contains a NUL byte", rad::printable(file)));
-        AnswerOptions read;
-        read.scene = files;
-        read.commands = options.commands;
-        read.goals = options.goals;
-        return std::make_unique<Implementation>(loadScene(read, warnings.collector()), options.goals);
-      });
+  implementation_ = passingWarnings(options, [&](std::shared_ptr<PreparedScene>&, const rad::Warn& warn) {
+    if (files.empty())
+      throw rad::Error("a scene needs at least one file: an octree, scene text or '!command'");
+    for (const std::string& file : files)
+      if (file.find('\0') != std::string::npos)
+        throw rad::Error(fmt::format("the file name \"{}\" contains a NUL byte", rad::printable(file)));
+    AnswerOptions read;
+    read.scene = files;
+    read.commands = options.commands;
+    read.goals = options.goals;
+    return std::make_unique<Implementation>(loadScene(read, warn), options.goals);
+  });
 }
 
 Scene::~Scene() = default;
