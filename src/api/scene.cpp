@@ -198,7 +198,7 @@ class Call {
         perRecord_(static_cast<size_t>(answerer.options.numbersPerRecord())),
         records_(numbers.size() / perRecord_) {}
 
-  void run(const std::function<bool()>& stop) {
+  void run(const std::function<bool()>& stop, const rad::Warn& warn) {
     answerer_.stop = false;
     const unsigned threads = threadCount(answerer_.options.threads);
     claim_ = std::clamp<size_t>(records_ / (kClaims * threads), 1, kLargestClaim);
@@ -229,6 +229,9 @@ class Call {
                  stop ? watch : std::function<void(unsigned)>());
     if (ofStop) std::rethrow_exception(ofStop);
     if (fault_) std::rethrow_exception(fault_);
+    for (const std::string& text :
+         answerer_.summary->warnings(answerer_.options, answerer_.scene->transport.prepared()))
+      warn(text);
   }
 
  private:
@@ -468,10 +471,7 @@ struct Scene::Implementation {
         column.quantity->numbers.resize(result.size * columns);
       }
       const auto keep = [&](size_t record, const std::string& bytes) { takeApart(bytes, all, record); };
-      Call(answerer, numbers, keep).run(options.stop);
-      for (const std::string& text :
-           answerer.summary->warnings(given.options, prepared->transport.prepared()))
-        warn(text);
+      Call(answerer, numbers, keep).run(options.stop, warn);
       return result;
     });
   }
@@ -553,9 +553,7 @@ Answers Scene::Implementation::answer(std::span<const double> numbers, const Opt
     };
 
     answerer->summary.emplace();
-    Call(*answerer, numbers, keep).run(options.stop);
-    for (const std::string& text : answerer->summary->warnings(parsed, prepared->transport.prepared()))
-      warn(text);
+    Call(*answerer, numbers, keep).run(options.stop, warn);
     giveBack(given.key, std::move(answerer));
     return answers;
   });
