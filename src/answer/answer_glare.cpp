@@ -4,24 +4,12 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "estimate/glare_estimator.h"
 #include "process/threads.h"
 
 namespace rsphere {
-
 namespace {
-
-// The estimator of glare (-Su), with a workspace for each thread of -n.
-struct GlareWorkers {
-  GlareWorkers(const Transport& transport, const AnswerOptions& options)
-      : estimator(transport, options.sphere) {
-    for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces.emplace_back(estimator.means());
-  }
-  GlareEstimator estimator;
-  std::vector<SphereEstimator::Workspace> workspaces;
-};
 
 Gaze gazeOf(const Record& record) {
   const V3d along(record.numbers[3], record.numbers[4], record.numbers[5]);
@@ -36,19 +24,22 @@ Gaze gazeOf(const Record& record) {
 
 AnswerRecord answerGlare(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                          const rad::Warn& warn, RunSummary& summary, const AnswerWriter* sources) {
-  const auto workers = std::make_shared<GlareWorkers>(transport, options);
+  const auto estimator = std::make_shared<const GlareEstimator>(transport, options.sphere);
+  const auto workspaces =
+      forThreads(options.threads, [&] { return SphereEstimator::Workspace(estimator->means()); });
   if (isDark(transport.prepared())) warn("no light sources found");
   const bool indices = !options.sphere.everyDirection;
   const AnswerWriter* const list = indices ? sources : &writer;
-  return [&, workers, indices, list](const Record& record, unsigned worker, std::string& bytes) {
-    const V3d eye(record.numbers[0], record.numbers[1], record.numbers[2]);
-    const GlareAnswer answer = workers->estimator.estimate(eye, gazeOf(record), workers->workspaces[worker]);
-    summary.add(record.index, answer, transport.prepared());
-    if (indices) writer.write(bytes, answer);
-    if (list == nullptr) return;
-    for (const GlareSource& source : answer.sources)
-      list->write(bytes, source, answer, transport.prepared().scene(), record.index);
-  };
+  return
+      [&, estimator, workspaces, indices, list](const Record& record, unsigned worker, std::string& bytes) {
+        const V3d eye(record.numbers[0], record.numbers[1], record.numbers[2]);
+        const GlareAnswer answer = estimator->estimate(eye, gazeOf(record), (*workspaces)[worker]);
+        summary.add(record.index, answer, transport.prepared());
+        if (indices) writer.write(bytes, answer);
+        if (list == nullptr) return;
+        for (const GlareSource& source : answer.sources)
+          list->write(bytes, source, answer, transport.prepared().scene(), record.index);
+      };
 }
 
 }  // namespace rsphere

@@ -55,16 +55,6 @@ void PictureMaker::write(PictureFile& file, const V3d& point) const {
                  (isRadiance ? map.viewLine(point) : std::string()));
 }
 
-// The estimator of sphere mode, with a workspace for each thread of -n.
-struct PointWorkers {
-  PointWorkers(const Transport& transport, const AnswerOptions& options)
-      : estimator(transport, options.sphere, haveErrors(options.outputs)) {
-    for (unsigned i = 0; i < threadCount(options.threads); ++i) workspaces.emplace_back(estimator);
-  }
-  SphereEstimator estimator;
-  std::vector<SphereEstimator::Workspace> workspaces;
-};
-
 }  // namespace
 
 void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
@@ -75,19 +65,21 @@ void requirePictureNames(const AnswerOptions& options, RecordReader& reader) {
 AnswerRecord answerPoints(const Transport& transport, const AnswerOptions& options,
                           const AnswerWriter& writer, const rad::Warn& warn, RunSummary& summary,
                           const PictureProgress::Report& pictureReport) {
-  const auto workers = std::make_shared<PointWorkers>(transport, options);
+  const auto estimator =
+      std::make_shared<const SphereEstimator>(transport, options.sphere, haveErrors(options.outputs));
+  const auto workspaces = forThreads(options.threads, [&] { return SphereEstimator::Workspace(*estimator); });
   if (isDark(transport.prepared())) warn("no light sources found");
   const auto pictures = options.picture.empty()
                             ? nullptr
                             : std::make_shared<const PictureMaker>(transport, options, pictureReport);
-  return [&, workers, pictures](const Record& record, unsigned worker, std::string& bytes) {
+  return [&, estimator, workspaces, pictures](const Record& record, unsigned worker, std::string& bytes) {
     const V3d point(record.numbers[0], record.numbers[1], record.numbers[2]);
     // Opened before the answer is computed: a file that cannot be written ends the run at once, not after a
     // minute.
     std::optional<PictureFile> picture;
     if (pictures) picture.emplace(pictureName(options.picture, record.index));
-    SphereEstimator::Workspace& workspace = workers->workspaces[worker];
-    const PointAnswer answer = workers->estimator.estimate(point, workspace);
+    SphereEstimator::Workspace& workspace = (*workspaces)[worker];
+    const PointAnswer answer = estimator->estimate(point, workspace);
     summary.add(record.index, answer, transport.prepared());
     if (pictures) pictures->write(*picture, point);
     if (!options.sphere.everyDirection) return writer.write(bytes, answer);

@@ -7,43 +7,26 @@
 #include "scene/modifier_names.h"
 
 namespace rsphere {
-namespace {
-
-// Estimates rays by independent sets of rays, with their standard errors.
-struct EstimatedRays {
-  EstimatedRays(const Transport& transport, const AnswerOptions& options)
-      : estimator(transport, {options.sphere.accuracy, options.sphere.accuracyFloor}) {
-    for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers.push_back(estimator.tracers());
-  }
-  RayEstimator estimator;
-  std::vector<std::vector<PathTracer>> tracers;  // by thread
-};
-
-}  // namespace
 
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options) {
   const uint64_t seed = seedOf(numbers, rotationBits(options.ray));
   return options.numberedRays ? mixBits(seed ^ mixBits(index)) : seed;
 }
 
-std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options) {
-  std::vector<PathTracer> tracers;
-  for (unsigned i = 0; i < threadCount(options.threads); ++i) tracers.push_back(transport.pathTracer());
-  return tracers;
-}
-
 AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options, const AnswerWriter& writer,
                         const rad::Warn& warn, RunSummary& summary) {
-  const auto tracers = std::make_shared<std::vector<PathTracer>>(rayTracers(transport, options));
-  const auto estimated =
-      options.estimatesRays() ? std::make_shared<EstimatedRays>(transport, options) : nullptr;
+  const auto tracers = forThreads(options.threads, [&] { return transport.pathTracer(); });
+  const RayEstimator::Options how{options.sphere.accuracy, options.sphere.accuracyFloor};
+  const auto estimator =
+      options.estimatesRays() ? std::make_shared<const RayEstimator>(transport, how) : nullptr;
+  const auto ofSets = estimator ? forThreads(options.threads, [&] { return estimator->tracers(); }) : nullptr;
   const bool trees = !options.treeOutputs.empty(), value = trees || needsValue(options.outputs);
   const ShownShadows shadows = options.treeShadows ? ShownShadows::all : ShownShadows::thatPassSurfaces;
   const bool valueAlone = options.outputs == "v";
   if (value && lacksSources(transport.prepared())) warn("no light sources found");
   warnOfMissingModifiers(transport.prepared().scene(), options.treeExcluded, "-te", warn);
   warnOfMissingModifiers(transport.prepared().scene(), options.treeIncluded, "-ti", warn);
-  const AnswerRecord answerRay = [&, tracers, estimated, trees, value, valueAlone, shadows](
+  const AnswerRecord answerRay = [&, tracers, estimator, ofSets, trees, value, valueAlone, shadows](
                                      const Record& record, unsigned worker, std::string& bytes) {
     const InputRay in =
         inputRay(record.numbers.data(), options.irradiance, transport.prepared().scene().samePlace);
@@ -56,9 +39,9 @@ AnswerRecord answerRays(const Transport& transport, const AnswerOptions& options
     const PathRequest request{trees ? &observer : nullptr, shadows};
     const double farthest = options.limitDistance ? in.length : 0;
     const uint64_t seed = seedOfRay(record.numbers, record.index, options);
-    if (estimated) {
+    if (estimator) {
       const RayEstimator::Estimate estimate =
-          estimated->estimator.estimate(estimated->tracers[worker], in.origin, in.direction, farthest, seed);
+          estimator->estimate((*ofSets)[worker], in.origin, in.direction, farthest, seed);
       RayAnswer answer = answerOf(transport.prepared().scene(), estimate.ray);
       answer.standardError = estimate.standardError;
       answer.brightnessError = estimate.brightnessError;

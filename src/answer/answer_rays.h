@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "answer/answer_writer.h"
 #include "answer/batch.h"
@@ -14,9 +13,6 @@ namespace rsphere {
 // The seed of a ray's random numbers. It depends on the six numbers of the ray and on -Sr. With -u+ it also
 // depends on index, the number of the record from 0, so that a repeated ray is a new sample.
 uint64_t seedOfRay(std::span<const double> numbers, uint64_t index, const AnswerOptions& options);
-
-// One tracer for each thread of -n. The transport must exist as long as the tracers.
-std::vector<PathTracer> rayTracers(const Transport& transport, const AnswerOptions& options);
 
 // The function that answers rays like rtrace, including their trees (-ot). Like rtrace, it warns if values
 // are requested and the scene has no light source; also of names of -te and -ti that are the modifier of no

@@ -8,6 +8,7 @@
 #include "answer/answer_rays.h"
 #include "answer/answer_writer.h"
 #include "base/random.h"
+#include "process/threads.h"
 
 namespace rsphere::v1 {
 namespace {
@@ -65,8 +66,8 @@ RayContributions::RayContributions(const Transport& transport, const AnswerOptio
       tracked_(transport.prepared(), std::move(modifiers), what, std::move(warn)),
       components_(static_cast<size_t>(tracked_.components())),
       samples_(samples) {
-  for (PathTracer& tracer : rayTracers(transport, options))
-    tracers_.emplace_back(std::move(tracer), tracked_);
+  for (unsigned i = 0; i < threadCount(options.threads); ++i)
+    tracers_.emplace_back(transport.pathTracer(), tracked_);
   if (options.sphere.accuracy > 0)
     estimator_.emplace(transport,
                        RayEstimator::Options{options.sphere.accuracy, options.sphere.accuracyFloor}, what);

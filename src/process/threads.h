@@ -1,6 +1,8 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace rsphere {
 
@@ -11,6 +13,14 @@ unsigned wantedThreads(int asked);
 // their stacks (64 MB each) in half of the memory limit (RLIMIT_DATA, RLIMIT_AS). The other half is for the
 // scene and the answers. The result only changes with these limits.
 unsigned threadCount(int asked);
+
+// What `make` makes for each of these threads, by thread.
+template <class Make>
+auto forThreads(int asked, const Make& make) {
+  auto all = std::make_shared<std::vector<decltype(make())>>();
+  for (unsigned i = 0; i < threadCount(asked); ++i) all->push_back(make());
+  return all;
+}
 
 // Calls work(worker) on each of `count` new threads, with worker = 0, 1, ..., and returns when all have
 // ended. Each thread has a stack of 64 MB, because surfaces along a path are traced recursively, and a path

@@ -11,6 +11,7 @@
 #include "cli/program.h"
 #include "contrib/tracked.h"
 #include "estimate/contribution_estimator.h"
+#include "process/threads.h"
 #include "rays/prepared_scene.h"
 #include "rcontrib/contribution_outputs.h"
 #include "rcontrib/record_sums.h"
@@ -69,7 +70,8 @@ void runContributions(const ContributionOptions& options, const Messages& messag
   const Contributed what = options.values ? Contributed::values : Contributed::coefficients;
   const Tracked tracked(transport.prepared(), std::move(modifiers), what, warn);
   std::vector<ContributionTracer> tracers;
-  for (PathTracer& tracer : rayTracers(transport, options)) tracers.emplace_back(std::move(tracer), tracked);
+  for (unsigned i = 0; i < threadCount(options.threads); ++i)
+    tracers.emplace_back(transport.pathTracer(), tracked);
 
   // The error of a record of several rays is that of their spread.
   std::optional<const ContributionEstimator> estimator;
