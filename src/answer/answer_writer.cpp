@@ -44,7 +44,8 @@ void AnswerWriter::eachPart(const Color& color, const Write& write) const {
 void AnswerWriter::writeError(RecordText& text, const RayAnswer& answer) const {
   if (options_.contributors.empty())
     return colors_.writeError(text, answer.standardError, answer.brightnessError);
-  eachPart(answer.standardError.color, [&](const Color& part) { writeErrorOfPart(text, part); });
+  eachPart(answer.standardError.color,
+           [&](const Color& part) { colors_.writeError(text, Radiance(part), brightness(part)); });
 }
 
 void AnswerWriter::writeLetter(RecordText& text, char letter, const RayAnswer& answer) const {
@@ -92,19 +93,12 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
 
 // The error of the brightness is an upper bound that assumes full correlation of the errors of the channels.
 // They are nearly correlated, because the same paths contribute to all channels.
-void AnswerWriter::writeErrorOfPart(RecordText& text, const Color& part) const {
-  colors_.writeError(text, Radiance(part), brightness(part));
-}
-
 void AnswerWriter::writeLightVector(RecordText& text, const PointAnswer& answer) const {
   if (options_.contributors.empty()) return text.vector(answer.lightVector);
   const Irradiance* const f = answer.facing;
-  for (size_t i = 0; i < options_.contributors.size(); ++i) {
-    const auto along = [&](size_t axis) {
-      return brightness(f[2 * axis].color.part(i)) - brightness(f[2 * axis + 1].color.part(i));
-    };
-    text.vector(V3d(along(0), along(1), along(2)));
-  }
+  for (size_t i = 0; i < options_.contributors.size(); ++i)
+    for (size_t axis = 0; axis < 3; ++axis)
+      text.number(brightness(f[2 * axis].color.part(i)) - brightness(f[2 * axis + 1].color.part(i)));
 }
 
 void AnswerWriter::writeErrorsOfLightVector(RecordText& text, const PointAnswer& answer) const {
@@ -134,12 +128,11 @@ void AnswerWriter::writeColors(RecordText& text, const PointQuantity& quantity,
   const size_t parts = options_.contributors.size();
   for (size_t i = 0; i < std::max<size_t>(1, parts); ++i)
     quantity.each(answer, options_.sphere, [&](const Color& all, double ofBrightness) {
+      const Radiance own(parts > 0 ? all.part(i) : all);
       if (quantity.form == PointQuantity::Form::colors)
-        colors_.write(text, Radiance(parts > 0 ? all.part(i) : all));
-      else if (parts > 0)
-        writeErrorOfPart(text, all.part(i));
+        colors_.write(text, own);
       else
-        colors_.writeError(text, Radiance(all), ofBrightness);
+        colors_.writeError(text, own, parts > 0 ? brightness(own) : ofBrightness);
     });
 }
 

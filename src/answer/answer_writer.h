@@ -44,7 +44,6 @@ class AnswerWriter {
   // Writes the quantity of an -o letter for a ray.
   void writeLetter(RecordText& text, char letter, const RayAnswer& answer) const;
   void writeError(RecordText& text, const RayAnswer& answer) const;
-  void writeErrorOfPart(RecordText& text, const Color& part) const;
   void writeErrorsOfLightVector(RecordText& text, const PointAnswer& answer) const;
   void writeColors(RecordText& text, const PointQuantity& quantity, const PointAnswer& answer) const;
   void writeLightVector(RecordText& text, const PointAnswer& answer) const;
