@@ -1,7 +1,6 @@
 #include "rad_parser/file_path.h"
 
 #include <pwd.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,11 +31,6 @@ std::optional<std::string> inHome(std::string_view name) {
 bool standsAlone(std::string_view name) { return name[0] == '/' || name[0] == '.' || name[0] == '~'; }
 
 bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
-
-bool isDirectory(const std::string& path) {
-  struct stat status;
-  return stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
-}
 
 }  // namespace
 
@@ -85,10 +79,7 @@ std::string libraryPath() {
 }
 
 std::string joinPath(std::string_view base, std::string_view name) {
-  if (base.empty() || name.starts_with('/')) return std::string(name);
-  std::string path(base);
-  if (path.back() != '/') path += '/';
-  return path += name;
+  return (std::filesystem::path(base) / name).string();
 }
 
 std::string directoryOf(std::string_view path) {
@@ -110,7 +101,8 @@ std::optional<std::string> findFile(std::string_view name, std::string_view sear
     std::string_view directory = searchPath.substr(0, colon);
     if (directory == ".") directory = {};  // so that messages say "desk.rad" instead of "./desk.rad"
     std::string path = joinPath(base, joinPath(directory, name));
-    if (readable(path) && !isDirectory(path) && access.allows(path)) return path;
+    std::error_code none;
+    if (readable(path) && !std::filesystem::is_directory(path, none) && access.allows(path)) return path;
     if (colon == searchPath.size()) return {};
     searchPath.remove_prefix(colon + 1);
   }

@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
+#include <filesystem>
 #include <utility>
 
 #include "image/codec.h"
@@ -78,12 +77,6 @@ bool isStandardDescriptor(const struct stat& file) {
   return false;
 }
 
-// The name with all links resolved; the name itself if it cannot be resolved.
-std::string realPath(const std::string& name) {
-  const std::unique_ptr<char, void (*)(void*)> path(realpath(name.c_str(), nullptr), std::free);
-  return path ? path.get() : name;
-}
-
 }  // namespace
 
 PictureFormat pictureFormat(const std::string& name) {
@@ -111,7 +104,9 @@ PictureFile::PictureFile(std::string name) : name_(std::move(name)), format_(pic
   if (exists && S_ISDIR(status.st_mode)) cannotWrite(name_, std::strerror(EISDIR));
   if (exists && access(name_.c_str(), W_OK) != 0) cannotWrite(name_, std::strerror(errno));
   if (exists && (!S_ISREG(status.st_mode) || isStandardDescriptor(status))) return;
-  const std::string target = exists ? realPath(name_) : name_;
+  std::error_code none;
+  std::string target = std::filesystem::canonical(name_, none).string();
+  if (none) target = name_;
   const NewFile trial(target);
   if (trial.descriptor() >= 0)
     target_ = target;
