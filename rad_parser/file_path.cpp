@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "rad_parser/printable.h"
+
 namespace rad {
 namespace {
 
@@ -36,19 +38,14 @@ bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0;
 
 FileAccess FileAccess::foldersOf(std::span<const std::string> given) {
   FileAccess access;
-  std::vector<std::string>& folders = access.folders_.emplace();
+  std::vector<std::string>& allowed = access.folders_.emplace();
   const auto add = [&](std::filesystem::path folder) {
     std::error_code missing;
     folder = std::filesystem::canonical(folder.empty() ? "." : folder, missing);
-    if (!missing) folders.push_back((folder / "").string());
+    if (!missing) allowed.push_back((folder / "").string());
   };
-  const std::string path = libraryPath();
-  for (std::string_view rest = path;;) {
-    const size_t colon = std::min(rest.find(':'), rest.size());
-    add(rest.substr(0, colon));
-    if (colon == rest.size()) break;
-    rest.remove_prefix(colon + 1);
-  }
+  const std::string path = libraryPath(), folders = path + ':';
+  for (const std::string_view folder : split(folders, ":")) add(folder);
   for (const std::string& name : given)
     if (!name.starts_with('!'))
       add(directoryOf(::access(name.c_str(), F_OK) == 0 ? name : findFile(name, path).value_or(name)));
@@ -96,16 +93,14 @@ std::optional<std::string> findFile(std::string_view name, std::string_view sear
     if (path && !(readable(*path) && access.allows(*path))) path.reset();
     return path;
   }
-  for (;;) {
-    const size_t colon = std::min(searchPath.find(':'), searchPath.size());
-    std::string_view directory = searchPath.substr(0, colon);
+  const std::string folders = std::string(searchPath) + ':';
+  for (std::string_view directory : split(folders, ":")) {
     if (directory == ".") directory = {};  // so that messages say "desk.rad" instead of "./desk.rad"
     std::string path = joinPath(base, joinPath(directory, name));
     std::error_code none;
     if (readable(path) && !std::filesystem::is_directory(path, none) && access.allows(path)) return path;
-    if (colon == searchPath.size()) return {};
-    searchPath.remove_prefix(colon + 1);
   }
+  return {};
 }
 
 }  // namespace rad

@@ -60,11 +60,8 @@ bool isOctree(std::string_view beginning, std::string_view name) {
   const size_t end = headerEnd(beginning);
   const std::string_view header = beginning.substr(0, end);
   std::optional<std::string_view> format;
-  for (std::string_view rest = header; !rest.empty();) {
-    if (const auto named = headerFormat(rest)) format = named;
-    const size_t lineEnd = rest.find('\n');
-    rest.remove_prefix(lineEnd == rest.npos ? rest.size() : lineEnd + 1);
-  }
+  for (const std::string_view line : split(header, "\n"))
+    if (const auto named = headerFormat(line)) format = named;
   if (format == kFormat) return true;
   // A text file may contain an empty line, but not the magic number of an octree after it.
   bool hasNumber = false;

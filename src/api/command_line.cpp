@@ -41,11 +41,7 @@ class Words {
 void addBins(const Bins& bins, Words& words) {
   if (bins.zones > 1) throw rad::Error("directionBins have an expression; Options::zones are equal zones");
   for (const std::string& file : bins.files) words.add("-f", std::optional(file));
-  for (size_t begin = 0; begin < bins.parameters.size();) {
-    const size_t end = std::min(bins.parameters.find_first_of(",:;", begin), bins.parameters.size());
-    words.add("-e", std::optional(bins.parameters.substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string_view one : rad::split(bins.parameters, ",:;")) words.add("-e", std::optional(one));
   words.add("-Szb", std::optional(bins.expression));
   words.add("-Szn", std::optional(bins.count));
 }

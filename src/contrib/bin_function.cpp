@@ -18,14 +18,11 @@ constexpr double kMostBins = 100000;  // of directionBins(): the limit of -Sz
 // Converts the parameters of -p to definitions. Throws rad::Error if they are not a list of named numbers.
 std::vector<std::string> definitionsOf(const std::string& parameters) {
   std::vector<std::string> definitions;
-  for (size_t begin = 0; begin < parameters.size();) {
-    const size_t end = std::min(parameters.find_first_of(",:;", begin), parameters.size());
-    const std::string one = parameters.substr(begin, end - begin);
+  for (const std::string_view one : rad::split(parameters, ",:;")) {
     const size_t equals = one.find('=');
-    if (equals == 0 || equals == std::string::npos || !rad::parseReal(one.substr(equals + 1)))
+    if (equals == 0 || equals == one.npos || !rad::parseReal(one.substr(equals + 1)))
       throw rad::Error(fmt::format("bad parameter list '{}': -p name=number,name=number", parameters));
-    definitions.push_back(one);
-    begin = end + 1;
+    definitions.emplace_back(one);
   }
   return definitions;
 }

@@ -20,12 +20,8 @@ namespace {
 // The lines of a text, without blanks at their ends: FORMAT= has some, which align the records.
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = text.substr(begin, end - begin);
+  for (const std::string_view line : rad::split(text, "\n"))
     lines.emplace_back(line.substr(0, line.find_last_not_of(' ') + 1));
-    begin = end + 1;
-  }
   return lines;
 }
 

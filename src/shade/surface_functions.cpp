@@ -74,16 +74,6 @@ std::vector<double> unevenWavelengths(const rad::DataFile& data, size_t axis) {
   return {divisions.begin(), divisions.end()};
 }
 
-std::vector<std::string> linesOf(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 }  // namespace
 
 // Reads and compiles a single modifier.
@@ -335,10 +325,12 @@ class SurfaceFunctions::Maker {
       return placed([&] { return rad::FontFile::parse(contents, path); });
     });
     std::vector<std::string> lines;
-    if (!read.words.empty())
+    if (!read.words.empty()) {
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
-    else
-      lines = linesOf(contentsOf(find(read.file, "text"), "text"));
+    } else {
+      const std::string text = contentsOf(find(read.file, "text"), "text");
+      for (const std::string_view line : rad::split(text, "\n")) lines.emplace_back(line);
+    }
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
     std::copy(read.background.begin(), read.background.end(), background.begin());
