@@ -24,7 +24,7 @@ bool readOn(int& descriptor, Byte* block, size_t size, const Byte*& keep, const 
   do {
     got = read(descriptor, block + kept, size - kept);
   } while (got < 0 && errno == EINTR);
-  if (got < 0) throw Error(where() + ": cannot read: " + std::strerror(errno), Status::system);
+  if (got < 0) throw systemError(where() + ": cannot read");
   if (got == 0) descriptor = -1;
   end += got;
   return got > 0;

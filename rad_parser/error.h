@@ -1,6 +1,9 @@
 #pragma once
+#include <cerrno>
+#include <cstring>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "rad_parser/printable.h"
@@ -22,6 +25,12 @@ class Error : public std::runtime_error {
  private:
   Status status_;
 };
+
+// The error of the last system call, which errno names: "TEXT: No such file or directory".
+inline Error systemError(std::string_view text) {
+  const char* const reason = std::strerror(errno);
+  return Error(std::string(text) + ": " + reason, Status::system);
+}
 
 // Receives a warning: one line that begins with its place, without the program's name. It is called only from
 // the thread that reads. An empty function ignores warnings.

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -40,8 +39,7 @@ class OpenFile {
     char block[1 << 16];
     for (ssize_t got = 1; got != 0;) {
       got = read(descriptor_, block, sizeof block);
-      if (got < 0 && errno != EINTR)
-        throw Error(printable(name, kLongestName) + ": cannot read: " + std::strerror(errno), Status::system);
+      if (got < 0 && errno != EINTR) throw systemError(printable(name, kLongestName) + ": cannot read");
       if (got > 0) bytes.append(block, static_cast<size_t>(got));
     }
     return bytes;

@@ -61,9 +61,8 @@ class SceneReader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open {} file: {}", printableName(name),
-                              name.ends_with(".oct") ? "octree" : "scene", std::strerror(errno)),
-                  Status::system);
+      throw systemError(fmt::format("{}: cannot open {} file", printableName(name),
+                                    name.ends_with(".oct") ? "octree" : "scene"));
     const std::string ahead = readBeginning(input.descriptor());
     const bool mayBeOctree = !ahead.empty() || name.ends_with(".oct");
     if (!mayBeOctree || !octree(input.descriptor(), file, ahead)) {
@@ -80,9 +79,7 @@ class SceneReader {
                               options_.files.remark(name, true)),
                   Status::system);
     const OpenFile input(*found);
-    if (input.descriptor() < 0)
-      throw Error(fmt::format("{}: cannot open octree file: {}", printableName(*found), std::strerror(errno)),
-                  Status::system);
+    if (input.descriptor() < 0) throw systemError(printableName(*found) + ": cannot open octree file");
     const uint32_t file = builder_.addFile(*found);
     const std::string ahead = readBeginning(input.descriptor());
     if (!octree(input.descriptor(), file, ahead))

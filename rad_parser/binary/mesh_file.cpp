@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "rad_parser/binary/binary_scene.h"
 #include "rad_parser/open_file.h"
@@ -228,9 +226,7 @@ Mesh readMesh(const std::string& name, const Warn& warn, const FileAccess& acces
     throw Error(fmt::format("{}: cannot find mesh file{}", printableName(name), access.remark(name, true)),
                 Status::system);
   const OpenFile file(*path);
-  if (file.descriptor() < 0)
-    throw Error(fmt::format("{}: cannot open mesh file: {}", printableName(*path), std::strerror(errno)),
-                Status::system);
+  if (file.descriptor() < 0) throw systemError(printableName(*path) + ": cannot open mesh file");
   BinaryReader input(file.descriptor(), *path, "mesh");
   Mesh mesh = MeshReader(input, warn).read();
   file.requireUnchanged(*path);

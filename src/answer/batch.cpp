@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -105,9 +103,7 @@ struct Finished {
 class Event {
  public:
   Event() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (fd_ < 0)
-      throw rad::Error(std::string("cannot create an event descriptor: ") + std::strerror(errno),
-                       rad::Status::system);
+    if (fd_ < 0) throw rad::systemError("cannot create an event descriptor");
   }
   ~Event() { close(fd_); }
   Event(const Event&) = delete;

@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <limits>
 
 #include "rad_parser/open_file.h"
@@ -27,10 +25,7 @@ void Messages::use(const MessageOptions& options, std::string_view command) {
   warnings_ = options.warnings;
   if (!options.errorFile.empty()) {
     const int fd = open(options.errorFile.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (fd < 0)
-      throw rad::Error(
-          fmt::format("cannot open error file \"{}\": {}", options.errorFile, std::strerror(errno)),
-          rad::Status::system);
+    if (fd < 0) throw rad::systemError(fmt::format("cannot open error file \"{}\"", options.errorFile));
     if (fd_ != kStandardError) close(fd_);
     fd_ = fd;
     rad::writeAll(fd_, fmt::format("**************\n*** PID {:5}: {}\n\n", getpid(),

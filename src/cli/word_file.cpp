@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-
 #include "rad_parser/file_path.h"
 #include "rad_parser/open_file.h"
 #include "rad_parser/text_source.h"
@@ -41,9 +38,7 @@ std::vector<std::string> wordsOf(std::string_view text, const std::string& name,
 std::vector<std::string> wordsOfFile(std::string_view what, const std::string& name) {
   const std::string path = rad::findFile(name, rad::libraryPath()).value_or(name);
   const rad::OpenFile file(path);
-  if (file.descriptor() < 0)
-    throw rad::Error(fmt::format("cannot open {} \"{}\": {}", what, name, std::strerror(errno)),
-                     rad::Status::system);
+  if (file.descriptor() < 0) throw rad::systemError(fmt::format("cannot open {} \"{}\"", what, name));
   return wordsOf(file, path, kMostWords);
 }
 

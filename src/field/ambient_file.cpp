@@ -77,9 +77,7 @@ std::unique_ptr<AmbientFile> AmbientFile::open(const std::string& name, uint64_t
     descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
   }
   struct stat status {};
-  if (descriptor < 0)
-    throw rad::Error(fmt::format("cannot open ambient file \"{}\": {}", name, std::strerror(errno)),
-                     rad::Status::system);
+  if (descriptor < 0) throw rad::systemError(fmt::format("cannot open ambient file \"{}\"", name));
   std::unique_ptr<AmbientFile> file(new AmbientFile(name, descriptor, writable, warn));
   // The user gives /dev/null to keep nothing.
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
@@ -110,8 +108,7 @@ bool AmbientFile::begin(uint64_t scene, uint64_t options) {
   const std::string ours = header(scene, options);
   std::string found;
   if (writable_ && !lock(descriptor_, LOCK_EX))
-    throw rad::Error(fmt::format("cannot lock ambient file \"{}\": {}", name_, std::strerror(errno)),
-                     rad::Status::system);
+    throw rad::systemError(fmt::format("cannot lock ambient file \"{}\"", name_));
   const off_t size = sizeOf(descriptor_);
   found.resize(std::min<size_t>(kHeader, static_cast<size_t>(std::max<off_t>(size, 0))));
   const bool readable = readAll(descriptor_, found.data(), found.size(), 0);
@@ -122,9 +119,7 @@ bool AmbientFile::begin(uint64_t scene, uint64_t options) {
     written = ftruncate(descriptor_, 0) == 0 && writeAll(descriptor_, ours, 0);
   if (writable_) lock(descriptor_, LOCK_UN);
   if (!readable || !written)
-    throw rad::Error(fmt::format("cannot {} ambient file \"{}\": {}", readable ? "write" : "read", name_,
-                                 std::strerror(errno)),
-                     rad::Status::system);
+    throw rad::systemError(fmt::format("cannot {} ambient file \"{}\"", readable ? "write" : "read", name_));
   if (begun || found == ours) return true;
   std::string why = "is not an ambient file";
   if (found.starts_with(kMagic))

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 
 #include "rad_parser/printable.h"
 
@@ -89,8 +88,7 @@ void onSignal(int number) {
 StopSignals::StopSignals(const std::string& program) {
   occupyStandardDescriptors();
   if (pipe2(state.pipe, O_CLOEXEC | O_NONBLOCK) != 0)
-    throw rad::Error(std::string("cannot create a pipe for signals: ") + std::strerror(errno),
-                     rad::Status::system);
+    throw rad::systemError("cannot create a pipe for signals");
   state.raised = 0;
   state.raisedAt = 0;
   state.deferred = false;

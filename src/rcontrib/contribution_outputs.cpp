@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <functional>
 
@@ -26,8 +25,7 @@ namespace {
 constexpr size_t kMostPending = size_t{16} << 20;
 
 [[noreturn]] void systemError(const std::string& name, std::string_view what) {
-  throw rad::Error(fmt::format("{}: {}: {}", rad::printableName(name), what, std::strerror(errno)),
-                   rad::Status::system);
+  throw rad::systemError(fmt::format("{}: {}", rad::printableName(name), what));
 }
 
 // Each output of a run takes a file descriptor.

@@ -28,11 +28,6 @@ constexpr size_t kShownWord = 40;
 bool isQuote(char c) { return c == '"' || c == '\''; }
 bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '.'; }
 
-std::string systemText(std::string_view what) {
-  const int error = errno;
-  return fmt::format("{}: {}", what, std::strerror(error));
-}
-
 bool isText(std::string_view bytes) {
   return std::ranges::all_of(bytes, [](char c) { return rad::isBlank(c) || rad::isPrintable(c); });
 }
@@ -98,7 +93,7 @@ bool RecordReader::refill() {
   bool told = false;
   for (int patience = 0;; patience = -1) {
     const int n = poll(ready.data(), ready.size(), patience);
-    if (n < 0 && errno != EINTR) throw rad::Error(systemText(name_), rad::Status::system);
+    if (n < 0 && errno != EINTR) throw rad::systemError(name_);
     if (n > 0) break;
     if (!told && waiting_) {
       waiting_(true);
@@ -112,7 +107,7 @@ bool RecordReader::refill() {
   ssize_t got;
   do got = ::read(fd_, block_.data() + end_, block_.size() - end_);
   while (got < 0 && (errno == EINTR || errno == EAGAIN));
-  if (got < 0) throw rad::Error(systemText(name_), rad::Status::system);
+  if (got < 0) throw rad::systemError(name_);
   atEnd_ = got == 0;
   end_ += static_cast<size_t>(got);
   return !atEnd_;
