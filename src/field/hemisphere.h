@@ -76,8 +76,6 @@ class HemisphereCells {
   // Chooses rings and sectors so that there are about `rays` cells, at least 4.
   explicit HemisphereCells(int rays);
 
-  int rings() const { return rings_; }
-  int sectors() const { return sectors_; }
   int count() const { return rings_ * sectors_; }
 
   // A direction in a cell (unit). It is uniform in projected solid angle if u1, u2 are uniform in [0, 1). x,

@@ -50,7 +50,6 @@ class RecordReader {
 
   // If one of these descriptors becomes readable, waiting ends, and all further calls of read() return 0.
   void interruptBy(std::vector<int> fds) { wakeFds_ = std::move(fds); }
-  bool interrupted() const { return interrupted_; }
 
   // Number of records returned.
   uint64_t records() const { return records_; }

@@ -32,7 +32,6 @@ class DirectedScattering {
   virtual ~DirectedScattering() = default;
 
   bool transmits() const { return incidentFront_ != scatteredFront_; }
-  bool incidentFront() const { return incidentFront_; }
   // Whether views on this side use the data with exchanged directions.
   bool turned(const V3d& view) const { return transmits() && (view.z > 0) != incidentFront_; }
 

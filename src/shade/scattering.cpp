@@ -88,7 +88,6 @@ Scattering scatterAtBoundary(const Interaction& at, double inner, const Medium& 
                              const Medium& outerMedium, bool basic) {
   Scattering s;
   beginScattering(s, at, 0);
-  s.knowsMedium = true;
   s.medium = at.front ? outerMedium : innerMedium;
   const double ratio = at.front ? outer / inner : inner / outer;
   double cosineBeyond = 0;

@@ -87,9 +87,7 @@ struct Scattering {
   bool widenReflection = false;  // whether the reflected lobe is widened by the size of the source (plane
                                  // surfaces)
 
-  // The medium through which the ray arrived, if knowsMedium, which means that the surface determines it.
-  bool knowsMedium = false;
-  Medium medium{};
+  Medium medium{};  // of a boundary of media: the one through which the ray arrived
 };
 
 // specularThreshold: -st. Lobes with at most this share are not sampled; their share is added to the
