@@ -51,10 +51,8 @@ Format formatOf(std::string_view option, const std::string& spec) {
 
 // A number as printed by printf's %d with a width.
 std::string padded(uint64_t number, const std::string& digits) {
-  std::string text = fmt::format("{}", number);
-  const size_t width = digits.empty() ? 0 : static_cast<size_t>(std::stoi(digits));
-  if (text.size() < width) text.insert(0, width - text.size(), digits[0] == '0' ? '0' : ' ');
-  return text;
+  const int width = digits.empty() ? 0 : std::stoi(digits);
+  return digits.starts_with('0') ? fmt::format("{:0{}}", number, width) : fmt::format("{:{}}", number, width);
 }
 
 std::string nameOf(const Format& format, const std::string& modifier, uint64_t number) {
