@@ -276,8 +276,18 @@ void printPolygons(const rad::Description& scene) {
   }
 }
 
+// Warnings about the scene, which are written when this object ends, also by an error.
+struct SceneWarnings {
+  ~SceneWarnings() {
+    for (const std::string& text : texts) warn(text);
+  }
+  std::vector<std::string> texts;
+};
+
 void run(const Settings& s) {
-  const rad::Description scene = rad::readScene(s.files, {.warn = warn});
+  SceneWarnings warnings;
+  const auto keep = [&](std::string_view text) { warnings.texts.emplace_back(text); };
+  const rad::Description scene = rad::readScene(s.files, {.warn = keep});
   if (s.allPolygons) return printPolygons(scene);
   const Area area = findArea(scene, s.surfaces, s.reversed, s.upOnly);
   const Plane& plane = area.plane();
@@ -294,6 +304,8 @@ void run(const Settings& s) {
     warn(fmt::format("the front of \"{}\" faces down, and so do the sensors; -r measures its back",
                      s.surfaces[0]));
 
+  if (s.readings.empty() && !isOtherRtrace())
+    warnings.texts.clear();  // rsphere reads the scene and warns, too
   auto [values, errors] =
       s.readings.empty() ? traceIlluminances(sensors, plane.normal, s.rtrace, s.files, s.unit == kRadiant)
                          : Illuminances{readIlluminances(s.readings, sensors.size()), {}};

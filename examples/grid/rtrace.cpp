@@ -25,7 +25,7 @@ rad::Error systemError(const std::string& what) {
   return rad::Error(fmt::format("{}: {}", what, std::strerror(errno)), rad::Status::system);
 }
 
-// rsphere, which is called by the name rtrace below, or another rtrace.
+// rsphere, which is called by the name of this program below, or another rtrace.
 std::string program() {
   if (isOtherRtrace()) return std::getenv("RTRACE");
   std::error_code none;
@@ -52,10 +52,12 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
 
   // The user's options come before those that the answer relies on.
   const std::string file = program();
-  std::vector<std::string> words{isOtherRtrace() ? file : "rtrace"};
+  const bool own = !isOtherRtrace();
+  std::vector<std::string> words{own ? "rsphere-plan" : file};  // the name that its messages begin with
+  if (own) words.emplace_back("-S-");
   words.insert(words.end(), options.begin(), options.end());
   words.insert(words.end(), {"-h-", "-I+", "-fa"});
-  const bool inColors = radiant || isOtherRtrace();  // only luminance and colors have standard errors
+  const bool inColors = radiant || !own;  // only luminance and colors have standard errors
   if (inColors)
     words.insert(words.end(), {"-ov"});
   else
@@ -97,11 +99,12 @@ Illuminances traceIlluminances(std::span<const Imath::V3d> points, const Imath::
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw rad::Error(fmt::format("cannot run \"{}\"; $RTRACE can name another rtrace", file),
                      rad::Status::system);
+  if (own && WIFEXITED(status) && WEXITSTATUS(status) != 0) std::exit(WEXITSTATUS(status));
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw rad::Error(fmt::format("\"{}\" failed; its message is above", words[0]));
+    throw rad::Error(fmt::format("\"{}\" failed; its message is above", file));
   if (found.values.size() != points.size())
     throw rad::Error(
-        fmt::format("\"{}\" answered {} of {} points", words[0], found.values.size(), points.size()));
+        fmt::format("\"{}\" answered {} of {} points", file, found.values.size(), points.size()));
   return found;
 }
 

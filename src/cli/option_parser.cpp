@@ -297,13 +297,13 @@ void checkIrradiance(Options& options) {
   if (options.irradiance != IrradianceAt::none && options.treeOutputs.empty() &&
       options.outputs.find_first_of("veVrRxXlnW") == std::string::npos)
     throw rad::Error("-I+ and -i+ options require some value output");
-  for (const char letter : options.outputs) {
-    if (options.sphereMode) break;
-    if (letter == 'V' || letter == 'W') options.messages.remarks.push_back("-oVW options require trace mode");
-    if (options.irradiance != IrradianceAt::none &&
-        std::string_view("rRxX").find(letter) != std::string_view::npos)
-      options.messages.remarks.push_back("-orRxX options incompatible with -I+ and -i+");
-  }
+  const auto given = [&](const char* letters) {
+    return !options.sphereMode && options.outputs.find_first_of(letters) != std::string::npos;
+  };
+  std::vector<std::string>& remarks = options.messages.remarks;
+  if (given("VW")) remarks.push_back("-oVW options require trace mode");
+  if (options.irradiance != IrradianceAt::none && given("rRxX"))
+    remarks.push_back("-orRxX options incompatible with -I+ and -i+");
 }
 
 // Limits on the directions at a point with -Sa but without -Sx. A point that never reaches the accuracy takes

@@ -219,7 +219,7 @@ TEST(ParseOptions, IrradianceCountsAsInRtrace) {
   EXPECT_EQ(parse({"rtrace", "-I", "-ovr", "s.oct"}).messages.remarks,
             (Names{"-orRxX options incompatible with -I+ and -i+"}));
   EXPECT_EQ(parse({"rtrace", "-oVW", "s.oct"}).messages.remarks,
-            (Names{"-oVW options require trace mode", "-oVW options require trace mode"}));
+            (Names{"-oVW options require trace mode"}));
 }
 
 TEST(ParseOptions, WhatNeedsRaysIsRefusedInSphereMode) {
