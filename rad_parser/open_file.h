@@ -32,13 +32,13 @@ class OpenFile {
   size_t size() const { return static_cast<size_t>(begin_.st_size); }
 
   // The contents, starting at the current position. name: for messages. Throws Error if they cannot be read,
-  // for example if it is a folder.
+  // for example if it is a folder, or, called at once, if the file could not be opened.
   std::string contents(std::string_view name) const {
     std::string bytes;
     if (S_ISREG(begin_.st_mode)) bytes.reserve(static_cast<size_t>(begin_.st_size));
     char block[1 << 16];
     for (ssize_t got = 1; got != 0;) {
-      got = read(descriptor_, block, sizeof block);
+      got = descriptor_ < 0 ? -1 : read(descriptor_, block, sizeof block);
       if (got < 0 && errno != EINTR) throw systemError(printable(name, kLongestName) + ": cannot read");
       if (got > 0) bytes.append(block, static_cast<size_t>(got));
     }

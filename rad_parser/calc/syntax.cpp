@@ -57,15 +57,10 @@ class Parser {
     std::string found = "the end";
     if (!atEnd()) {
       size_t end = position_ + 1;
-      if (isNamePart(next())) {
-        while (end < text_.size() && end < position_ + 40 && isNamePart(text_[end])) ++end;
-      }
-      found.clear();
-      for (char c : text_.substr(position_, end - position_)) {
-        const auto byte = static_cast<unsigned char>(c);
-        found += byte < 0x20 || byte >= 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-      }
-      found = "\"" + found + "\"";
+      const auto part =
+          isNamePart(next()) ? isNamePart : +[](char c) { return (c & 0xc0) == 0x80; };  // of UTF-8
+      while (end < text_.size() && end < position_ + 40 && part(text_[end])) ++end;
+      found = "\"" + printable(text_.substr(position_, end - position_)) + "\"";
     }
     failAt(line_, fmt::format("expected {}, got {}", expected, found));
   }

@@ -14,9 +14,7 @@ void NumberList::fail(const std::string& problem) const {
 
 void NumberList::refuse(std::string_view what, std::string_view word) const {
   if (word.empty()) fail(fmt::format("expected {}, got the end of the file", what));
-  std::string shown;
-  for (char c : word.substr(0, 40)) shown += c >= 0x20 && c < 0x7f ? c : '?';
-  fail(fmt::format("expected {}, got \"{}\"", what, shown));
+  fail(fmt::format("expected {}, got \"{}\"", what, printable(word, 40)));
 }
 
 void NumberList::skipBlank() {

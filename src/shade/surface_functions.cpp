@@ -27,10 +27,12 @@ void put(double* to, const V3d& v) {
   to[2] = v.z;
 }
 
-std::optional<std::string> readFile(const std::string& path) {
-  const rad::OpenFile file(path);
-  if (file.descriptor() < 0) return std::nullopt;
-  return file.contents(path);
+// Without the byte order mark of UTF-8. Only XML may be in UTF-16.
+std::string readText(const std::string& path) {
+  std::string text = rad::OpenFile(path).contents(path);
+  if (text.starts_with(rad::kByteOrderMark)) text.erase(0, rad::kByteOrderMark.size());
+  if (rad::isUtf16(text) && text.find('<') > 3) throw rad::Error(fmt::format("{}: {}", path, rad::kUtf16));
+  return text;
 }
 
 bool isFolder(const std::string& path, const rad::FileAccess& access) {
@@ -103,7 +105,7 @@ class SurfaceFunctions::Maker {
                      given - rest.size() + coordinates, exception, given));
   }
 
-  // find: the path of a file that this modifier names. contentsOf: the text of the file at a path.
+  // The path of a file that this modifier names.
   std::string find(std::string_view name, std::string_view kind) const {
     const auto path = rad::findNamedFile(scene_.description, place(), name, scene_.files);
     if (isFolder(path.value_or(std::string(name)), scene_.files))
@@ -114,11 +116,6 @@ class SurfaceFunctions::Maker {
            rad::Status::system);
     return *path;
   }
-  std::string contentsOf(const std::string& path, std::string_view kind) const {
-    auto text = readFile(path);
-    if (!text) fail(fmt::format("cannot open {} file \"{}\"", kind, path), rad::Status::system);
-    return std::move(*text);
-  }
 
   // What a file of this kind contains: make(its path), unless another modifier has had it made.
   template <class T, class Read>
@@ -126,7 +123,7 @@ class SurfaceFunctions::Maker {
                                   const Read& make) const {
     const std::string path = find(name, kind);
     std::shared_ptr<const T>& thing = cache[path];
-    if (!thing) thing = std::make_shared<const T>(make(path));
+    if (!thing) thing = placed([&] { return std::make_shared<const T>(make(path)); });
     return thing;
   }
 
@@ -141,16 +138,13 @@ class SurfaceFunctions::Maker {
   }
 
   std::shared_ptr<const rad::DataFile> table(std::string_view name) const {
-    return shared(functions_.data_, name, "data", [&](const std::string& path) {
-      const std::string text = contentsOf(path, "data");
-      return placed([&] { return rad::DataFile::parse(text, path); });
-    });
+    return shared(functions_.data_, name, "data",
+                  [](const std::string& path) { return rad::DataFile::parse(readText(path), path); });
   }
 
   template <class T>
   std::shared_ptr<const T> picture(Cache<T>& cache, std::string_view name) const {
-    return shared(cache, name, "picture",
-                  [&](const std::string& path) { return placed([&] { return T::read(path); }); });
+    return shared(cache, name, "picture", [](const std::string& path) { return T::read(path); });
   }
 
   rad::Place place() const { return scene_.description.primitives[modifier_.primitive].place; }
@@ -320,16 +314,16 @@ class SurfaceFunctions::Maker {
     // The motion vectors are parallel or too short. RADIANCE compares the length of n x d with 1e-12.
     if (!(n2 * d.length2() > 1e-24)) fail("illegal motion vector");
 
-    const auto font = shared(functions_.fonts_, read.font, "font", [&](const std::string& path) {
-      const std::string contents = contentsOf(path, "font");
-      return placed([&] { return rad::FontFile::parse(contents, path); });
+    const auto font = shared(functions_.fonts_, read.font, "font", [](const std::string& path) {
+      return rad::FontFile::parse(readText(path), path);
     });
     std::vector<std::string> lines;
     if (!read.words.empty()) {
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
     } else {
-      const std::string text = contentsOf(find(read.file, "text"), "text");
-      for (const std::string_view line : rad::split(text, "\n")) lines.emplace_back(line);
+      const std::string text = placed([path = find(read.file, "text")] { return readText(path); });
+      for (const std::string_view line : rad::split(text, "
+")) lines.emplace_back(line);
     }
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
@@ -398,8 +392,7 @@ class SurfaceFunctions::Maker {
   void makeFrom(const BsdfArguments& read) const {
     Scatterer s;
     s.bsdf = shared(functions_.bsdfs_, read.data, "BSDF", [&](const std::string& path) {
-      return BsdfData(rad::BsdfFile::parse(contentsOf(path, "BSDF"), path, functions_.warn_), path,
-                      functions_.warn_);
+      return BsdfData(rad::BsdfFile::parse(readText(path), path, functions_.warn_), path, functions_.warn_);
     });
     s.orientation = compiled(read.up.file.name, read.up.direction);
     if (read.thickness) s.thickness = compiled(read.up.file.name, std::span(&*read.thickness, 1));
@@ -442,9 +435,7 @@ std::optional<calc::SourceText> loadFunctionFile(std::string_view name, const ra
       return calc::SourceText{std::string(name), std::string(*text)};
     return std::nullopt;
   }
-  auto text = readFile(*path);
-  if (!text) return std::nullopt;
-  return calc::SourceText{*path, std::move(*text)};
+  return calc::SourceText{*path, readText(*path)};
 }
 
 SurfaceFunctions::SurfaceFunctions(const Scene& scene, const SpectralSampling* sampling, rad::Warn warn,

@@ -61,6 +61,7 @@ TEST(CalcSyntax, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errorOf("a = 1e;"), "fun.cal:1: expected an exponent, got \";\"");
   EXPECT_EQ(errorOf("a = --1;"), "fun.cal:1: expected a number, a name or '(', got \"-\"");
   EXPECT_EQ(errorOf("a = \x01;"), "fun.cal:1: expected a number, a name or '(', got \"\\x01\"");
+  EXPECT_EQ(errorOf("gr\u00f6sse = 1;"), "fun.cal:1: expected '=' or ':', got \"\u00f6\"");
   EXPECT_EQ(errorOf("a = ``;"), "fun.cal:1: expected a name after '`', got \";\"");
   EXPECT_EQ(errorOfExpression("1 2"), "room.rad:3: expected an operator or the end, got \"2\" in \"1 2\"");
   EXPECT_EQ(errorOfExpression(""), "room.rad:3: expected a number, a name or '(', got the end in \"\"");
