@@ -26,6 +26,9 @@ constexpr double kRelayRounding = 1e-9;
 // become wider, which affects memory and time but no answer. The images of two facing mirrors with -dr 2000
 // take 3 MB.
 constexpr size_t kMostRelays = 8;
+// A polygon with more corners bounds light by the rectangle around it: the planes between two outlines are as
+// many as the products of their corners (addPenumbra()).
+constexpr size_t kMostCorners = 64;
 
 // An affine map that leaves the points of a relay's plane fixed: p goes to p + height(p) * shift. It
 // preserves volume if shift . normal is 0 (a shear) or -2 (a shear combined with a reflection).
@@ -103,6 +106,13 @@ std::vector<V3d> hullOf(ShapeRef shape, std::span<const V3d> vertices) {
         if (polygon.hasArea)
           for (V3d& p : corners)
             p[polygon.axis] -= (p.dot(polygon.normal) - polygon.offset) / polygon.normal[polygon.axis];
+        if (corners.size() <= kMostCorners) return corners;
+        const auto [x, y] = frame(polygon.normal);
+        Box3d box;
+        for (const V3d& p : corners) box.extendBy(V3d(p.dot(x), p.dot(y), polygon.offset));
+        corners = cornersOf(box);
+        corners.resize(4);  // of the rectangle around the polygon
+        for (V3d& p : corners) p = p.x * x + p.y * y + p.z * polygon.normal;
         return corners;
       },
       [](const Ring& ring) { return cornersOf(ring); },
