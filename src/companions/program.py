@@ -1,5 +1,6 @@
 """What rsphere-compare and rsphere-trade are as programs: their messages, signals, and the programs that they run."""
 import ctypes
+import errno
 import os
 import re
 import resource
@@ -100,6 +101,8 @@ def run_program(program, body, fault_status=0):
     messages = Messages(program)
     try:
         catch_signals()
+        if sys.stdout is None:  # it was closed; the next file opened would take its place
+            raise Fault(f"write error: {os.strerror(errno.EBADF)}", "system")
         return body(messages)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

@@ -381,6 +381,12 @@ class AsScene(Files):
                                  stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual((run.returncode, run.stderr), (2, "rsphere-luminaire: system - write error: No space left on device\n"))
 
+    def test_closed_output(self):
+        """It was a traceback."""
+        run = subprocess.run(["sh", "-c", 'exec "$0" "$1" >&-', built("rsphere-luminaire"), PANEL], stderr=subprocess.PIPE, text=True,
+                             check=False)
+        self.assertEqual((run.returncode, run.stderr), (2, "rsphere-luminaire: system - write error: Bad file descriptor\n"))
+
     def test_percentage(self):
         """-f 80 made the light 80 times as bright without a word."""
         for factor, words in (("80", "80 times as bright; 80% is 0.8"), ("250", "250 times as bright"), ("2", None)):

@@ -1,6 +1,7 @@
 """What the commands of this package share: their options, messages and ends, and where the programs of rsphere are."""
 import argparse
 import difflib
+import errno
 import importlib
 import os
 import re
@@ -110,7 +111,7 @@ def need(module, package):
 
 def discard_output():
     """What Python would write when it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def run_program(main):
@@ -130,8 +131,10 @@ def run_program(main):
         print(f"{name}: warning - {message}", file=sys.stderr)
 
     warnings.showwarning = show_warning
-    sys.stdout.reconfigure(errors="replace")  # names in the room may be bytes of another encoding
     try:
+        if sys.stdout is None:  # it was closed; the next file opened would take its place
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        sys.stdout.reconfigure(errors="replace")  # names in the room may be bytes of another encoding
         status = main()
         sys.stdout.flush()
         return status
