@@ -73,8 +73,10 @@ std::unique_ptr<AmbientFile> AmbientFile::open(const std::string& name, uint64_t
   bool writable = true;
   int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0 && (errno == EACCES || errno == EROFS)) {
+    const int refused = errno;
     writable = false;
     descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) errno = refused;
   }
   struct stat status {};
   if (descriptor < 0) throw rad::systemError(fmt::format("cannot open ambient file \"{}\"", name));
