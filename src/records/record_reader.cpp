@@ -123,10 +123,12 @@ void RecordReader::malformed(std::string_view word) const {
   if (records_ == 0 && rad::isUtf16(word)) throw rad::Error(fmt::format("{}: {}", name_, rad::kUtf16));
   double number = 0;
   const auto [end, error] = rad::readReal(word.data(), word.data() + word.size(), number);
-  const bool huge = error == std::errc::result_out_of_range && end == word.data() + word.size();
+  const bool whole = end == word.data() + word.size();
+  const char* hint = "";
+  if (whole && error == std::errc::result_out_of_range) hint = ", beyond the range of numbers";
+  if (!whole && (*end == ',' || *end == ';')) hint = "; blanks separate numbers, and decimals need a point";
   throw rad::Error(fmt::format("{}:{}: expected {} {}, got \"{}\"{}", name_, line_, perRecord_,
-                               counted(perRecord_), rad::printable(word, kShownWord),
-                               huge ? ", beyond the range of numbers" : ""));
+                               counted(perRecord_), rad::printable(word, kShownWord), hint));
 }
 
 // A fast path for most text after the first line: reads records in the block up to the first that does not

@@ -83,7 +83,7 @@ TEST(RecordReader, LongNumbersAreReadWhole) {
 
 TEST(RecordReader, WhatIsNoNumberIsNamedWithItsLineAfterAllBefore) {
   for (const std::string word :
-       {"x", "nan", "NaN", "inf", "-inf", "infinity", "0x10", "1d0",  "1,0", "#",   "1e",  "1e+",
+       {"x", "nan", "NaN", "inf", "-inf", "infinity", "0x10", "1d0",  "#",   "1e",  "1e+",
         ".", "+",   "-",   "--1", "+-1",  "-+1",      "1..2", "1e5.", "\"1", "1\"", "\"\""}) {
     const ReadAll all = readText("1 2 3\n4 5 6 \n7 " + word + " 8\n1 2 3\n");
     EXPECT_EQ(all.numbers, (Numbers{1, 2, 3, 4, 5, 6}));
@@ -92,6 +92,10 @@ TEST(RecordReader, WhatIsNoNumberIsNamedWithItsLineAfterAllBefore) {
   EXPECT_EQ(readText("1 2 3 4 5 x", 6).fault, "stdin:1: expected 6 numbers, got \"x\"");
   EXPECT_EQ(readText("1 2 3 4 5 1e400", 6).fault,
             "stdin:1: expected 6 numbers, got \"1e400\", beyond the range of numbers");
+  for (const std::string word : {"1,2,3,0,0,1", "1;2;3;0;0;1", "1,5"})
+    EXPECT_EQ(readText(word + " 2 3 0 0 1", 6).fault,
+              "stdin:1: expected 6 numbers, got \"" + word +
+                  "\"; blanks separate numbers, and decimals need a point");
 }
 
 TEST(RecordReader, AFaultStaysAFault) {
