@@ -61,7 +61,7 @@ class SceneReader {
     const uint32_t file = builder_.addFile(found.value_or(name));
     const OpenFile input(found.value_or(name));
     if (input.descriptor() < 0)
-      throw systemError(fmt::format("{}: cannot open {} file", printableName(name),
+      throw systemError(fmt::format("{}: cannot open {} file", name.empty() ? "\"\"" : printableName(name),
                                     name.ends_with(".oct") ? "octree" : "scene"));
     const std::string ahead = readBeginning(input.descriptor());
     const bool mayBeOctree = !ahead.empty() || name.ends_with(".oct");

@@ -487,6 +487,9 @@ std::vector<std::string> takeScene(CommandWords& words) {
       commandLineError(words.before()[first],
                        fmt::format("the scene begins here, but '{}' follows; options come before the scene",
                                    words.word()));
+    for (const char* dash : {"\u2010", "\u2013", "\u2014", "\u2212"})  // as manuals and web pages print it
+      if (words.word().starts_with(dash))
+        commandLineError(words.word(), "options begin with a hyphen, not a dash");
     scene.push_back(words.take());
   }
   if (scene.empty())

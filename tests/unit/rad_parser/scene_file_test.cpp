@@ -359,7 +359,7 @@ TEST(SceneFile, FilesThatCannotBeRead) {
   const std::string denied = errorOf([&] { readFile(locked); }, Status::system);  // except for root
   EXPECT_EQ(denied, geteuid() == 0 ? "" : locked + ": cannot open scene file: Permission denied");
   EXPECT_EQ(errorOf([] { readFile(""); }, Status::system),
-            ": cannot open scene file: No such file or directory");
+            "\"\": cannot open scene file: No such file or directory");
   EXPECT_EQ(errorOf([] { readFile("/dev/zero"); }), "/dev/zero:1: NUL byte: this is not scene text");
 }
 
