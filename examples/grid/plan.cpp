@@ -10,19 +10,23 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "area.h"
+#include "base/version.h"
 #include "drawing.h"
 #include "isolines.h"
 #include "layout.h"
 #include "markup.h"
+#include "rad_parser/open_file.h"
+#include "rad_parser/printable.h"
 #include "rad_parser/scene_file.h"
+#include "rad_parser/text_source.h"
 #include "rtrace.h"
 
 namespace grid {
@@ -51,6 +55,7 @@ constexpr const char* kUsage =
   -i FILE   read the illuminances from a file, in the order of -p, instead of running rtrace
   -q UNIT   of what -i reads, if it is no illuminance: -q % for shares of time; without -i, -q W/m2 for
             irradiance by luminaires whose files are radiant
+  -version  of rsphere
 
 Scene files are scene text or one octree. rtrace is run with)";
 
@@ -186,6 +191,11 @@ Settings settingsOf(const std::vector<std::string>& words) {
   if (s.unit != "lx" && s.unit != kRadiant && s.readings.empty())
     throw rad::Error(fmt::format("-q is for what -i reads; without -i, {} is the only other unit", kRadiant));
   rsphere::requireSvgName("-o", s.picture, "the plan");
+  // A forgotten argument makes the next word the file: -x sky.rad room.rad.
+  if (s.table.ends_with(".rad") || s.table.ends_with(".oct") ||
+      std::ranges::find(s.files, s.table) != s.files.end())
+    throw rad::Error(
+        fmt::format("-x \"{}\": the table would replace a scene; give it another name", s.table));
   rsphere::requireWritable(s.picture);
   rsphere::requireWritable(s.table);
   if (s.outdoors > 0) s.unit = "%";
@@ -193,13 +203,22 @@ Settings settingsOf(const std::vector<std::string>& words) {
 }
 
 std::vector<double> readIlluminances(const std::string& path, size_t count) {
-  std::ifstream file(path);
-  if (!file) throw rad::Error(fmt::format("cannot read \"{}\"", path), rad::Status::system);
+  const rad::OpenFile file(path);
+  if (file.descriptor() < 0)
+    throw rad::Error(fmt::format("cannot read \"{}\": {}", path, std::strerror(errno)), rad::Status::system);
+  rad::DescriptionBuilder places;
+  rad::TextSource text(file.descriptor(), places.addFile(path), places);
+  text.skipByteOrderMark();
   std::vector<double> values;
-  for (double value; file >> value;) values.push_back(value);
-  if (!file.eof() || values.size() != count)
-    throw rad::Error(fmt::format("\"{}\" must have {} numbers, one for each point; it has {}{}", path, count,
-                                 values.size(), file.eof() ? "" : " and then something else"));
+  for (double value = 0; text.real(value);) values.push_back(value);
+  if (const std::string_view word = text.lastWord(); !word.empty())
+    throw places.error(
+        text.place(),
+        fmt::format("expected a number, got \"{}\"; blanks separate numbers, and decimals need a point",
+                    rad::printable(word, 40)));
+  if (values.size() != count)
+    throw rad::Error(fmt::format("\"{}\" must have {} numbers, one for each point; it has {}", path, count,
+                                 values.size()));
   return values;
 }
 
@@ -373,6 +392,8 @@ int main(int argc, char** argv) {
     grid::requireOutput();
     if (words.empty() || words[0] == "-help" || words[0] == "--help")
       fmt::print("{}\n{}, and then those behind --.\n", grid::kUsage, fmt::join(grid::defaults(), " "));
+    else if (words[0] == "-version" || words[0] == "--version")
+      fmt::print("rsphere {}\n", rsphere::kVersion);
     else
       grid::run(grid::settingsOf(words));
     grid::flushOutput();

@@ -322,8 +322,7 @@ class SurfaceFunctions::Maker {
       lines.push_back(fmt::format("{}", fmt::join(read.words, " ")));
     } else {
       const std::string text = placed([path = find(read.file, "text")] { return readText(path); });
-      for (const std::string_view line : rad::split(text, "
-")) lines.emplace_back(line);
+      for (const std::string_view line : rad::split(text, "\n")) lines.emplace_back(line);
     }
     std::array<double, 3> foreground{1, 0, 0}, background{0, 0, 0};
     std::copy(read.foreground.begin(), read.foreground.end(), foreground.begin());
