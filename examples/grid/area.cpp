@@ -1,5 +1,6 @@
 #include "area.h"
 
+#include <Imath/ImathBox.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,17 +18,9 @@
 namespace grid {
 namespace {
 
+using Imath::Box2d;
 using rad::Description;
 using rad::Primitive;
-
-bool inside(const Ring& ring, const V2d& p) {
-  bool odd = false;
-  for (size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++) {
-    const V2d &a = ring[i], &b = ring[k];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-  }
-  return odd;
-}
 
 double distance(const V2d& p, const Edge& edge) {
   const V2d along = edge.to - edge.from;
@@ -36,24 +29,68 @@ double distance(const V2d& p, const Edge& edge) {
 }
 
 double sizeOf(const std::vector<Ring>& rings) {
-  V2d low = rings[0][0], high = low;
+  Box2d box;
   for (const Ring& ring : rings)
-    for (const V2d& p : ring) {
-      low = V2d(std::min(low.x, p.x), std::min(low.y, p.y));
-      high = V2d(std::max(high.x, p.x), std::max(high.y, p.y));
+    for (const V2d& p : ring) box.extendBy(p);
+  return box.size().length();
+}
+
+// Points by the squares of a lattice in which they lie, so that the corners of circles and coast lines, which
+// may be tens of thousands, are not compared with each other.
+class Lattice {
+ public:
+  Lattice(const std::vector<Ring>& rings, double size) {
+    size_t points = 0;
+    for (const Ring& ring : rings) {
+      points += ring.size();
+      for (const V2d& p : ring) low_ = V2d(std::min(low_.x, p.x), std::min(low_.y, p.y));
     }
-  return (high - low).length();
+    side_ = static_cast<size_t>(std::sqrt(static_cast<double>(points))) + 1;
+    step_ = std::max(size, std::numeric_limits<double>::min()) / static_cast<double>(side_);
+    squares_.resize(side_ * side_);
+  }
+  void add(const V2d& p, size_t index) {
+    squares_[along(p.y - low_.y) * side_ + along(p.x - low_.x)].push_back(index);
+  }
+  // The points in all squares that the box touches: all points of the box, and others.
+  template <class Visit>
+  void visit(const Box2d& box, const Visit& visit) const {
+    for (size_t y = along(box.min.y - low_.y); y <= along(box.max.y - low_.y); ++y)
+      for (size_t x = along(box.min.x - low_.x); x <= along(box.max.x - low_.x); ++x)
+        for (const size_t index : squares_[y * side_ + x]) visit(index);
+  }
+
+ private:
+  size_t along(double distance) const {
+    return static_cast<size_t>(std::clamp(distance / step_, 0., static_cast<double>(side_ - 1)));
+  }
+
+  V2d low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double step_;
+  size_t side_;
+  std::vector<std::vector<size_t>> squares_;
+};
+
+// A box around all that lies up to a distance from the straight line between two points.
+Box2d around(const V2d& a, const V2d& b, double distance) {
+  Box2d box(a);
+  box.extendBy(b);
+  return {box.min - V2d(distance, distance), box.max + V2d(distance, distance)};
 }
 
 // The edges of the rings, cut where a vertex lies on them; each place is covered once.
-std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double samePlace) {
+std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double size, double samePlace) {
   std::vector<V2d> vertices;
+  Lattice lattice(rings, size);
   const auto indexOf = [&](const V2d& p) {
-    const auto found = std::find_if(vertices.begin(), vertices.end(),
-                                    [&](const V2d& q) { return (p - q).length() <= samePlace; });
-    if (found != vertices.end()) return static_cast<size_t>(found - vertices.begin());
+    size_t first = vertices.size();
+    lattice.visit(around(p, p, 2 * samePlace), [&](size_t v) {
+      if ((p - vertices[v]).length() <= samePlace) first = std::min(first, v);
+    });
+    if (first < vertices.size()) return first;
+    lattice.add(p, first);
     vertices.push_back(p);
-    return vertices.size() - 1;
+    return first;
   };
   std::vector<std::pair<size_t, size_t>> edges;
   for (const Ring& ring : rings)
@@ -66,9 +103,10 @@ std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double samePlace) {
   for (const auto& [from, to] : edges) {
     const V2d along = vertices[to] - vertices[from];
     std::vector<std::pair<double, size_t>> cuts;
-    for (size_t v = 0; v < vertices.size(); ++v)
+    lattice.visit(around(vertices[from], vertices[to], 2 * samePlace), [&](size_t v) {
       if (v == from || v == to || distance(vertices[v], {vertices[from], vertices[to]}) <= samePlace)
         cuts.emplace_back((vertices[v] - vertices[from]).dot(along), v);
+    });
     std::sort(cuts.begin(), cuts.end());
     for (size_t i = 1; i < cuts.size(); ++i) pieces.insert(std::minmax(cuts[i - 1].second, cuts[i].second));
   }
@@ -189,10 +227,11 @@ V2d Plane::project(const V3d& p) const { return {(p - origin).dot(right), (p - o
 // A slope of less than a quarter of a degree is drainage or rounding.
 bool Plane::horizontal() const { return std::abs(normal.z) > .99999; }
 
-Area::Area(const Plane& plane, std::vector<Ring> rings) : plane_(plane), rings_(std::move(rings)) {
-  const double size = sizeOf(rings_);
+Area::Area(const Plane& plane, const std::vector<Ring>& rings) : plane_(plane) {
+  for (const Ring& ring : rings) rings_.emplace_back(ring);
+  const double size = sizeOf(rings);
   // An edge is part of the boundary if the area lies on one of its sides only.
-  for (const Edge& piece : piecesOf(rings_, 1e-6 * size)) {
+  for (const Edge& piece : piecesOf(rings, size, 1e-6 * size)) {
     const V2d along = piece.to - piece.from, middle = (piece.from + piece.to) / 2;
     const V2d left = V2d(-along.y, along.x).normalized() * (1e-5 * size);
     const bool onLeft = contains(middle + left), onRight = contains(middle - left);
@@ -202,7 +241,36 @@ Area::Area(const Plane& plane, std::vector<Ring> rings) : plane_(plane), rings_(
 }
 
 bool Area::contains(const V2d& p) const {
-  return std::any_of(rings_.begin(), rings_.end(), [&](const Ring& ring) { return inside(ring, p); });
+  return std::any_of(rings_.begin(), rings_.end(), [&](const Rows& rows) { return rows.contain(p); });
+}
+
+Area::Rows::Rows(const Ring& ring)
+    : rows_(static_cast<size_t>(std::sqrt(static_cast<double>(ring.size()))) + 1) {
+  double high = -low_;
+  for (const V2d& p : ring) {
+    low_ = std::min(low_, p.y);
+    high = std::max(high, p.y);
+  }
+  step_ = (high - low_) / static_cast<double>(rows_.size());
+  for (size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++) {
+    const V2d &a = ring[i], &b = ring[k];
+    if (a.y == b.y) continue;  // never crossed
+    for (size_t row = rowAt(std::min(a.y, b.y)); row <= rowAt(std::max(a.y, b.y)); ++row)
+      rows_[row].push_back({a, b});
+  }
+}
+
+size_t Area::Rows::rowAt(double y) const {
+  return step_ > 0
+             ? static_cast<size_t>(std::clamp((y - low_) / step_, 0., static_cast<double>(rows_.size() - 1)))
+             : 0;
+}
+
+bool Area::Rows::contain(const V2d& p) const {
+  bool odd = false;
+  for (const auto& [a, b] : rows_[rowAt(p.y)])
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+  return odd;
 }
 
 double Area::distanceToEdge(const V2d& p) const {
@@ -257,7 +325,7 @@ Area findArea(const Description& scene, std::span<const std::string> names, bool
     plane.origin = plane.at(corner);
   }
   if (reversed) plane.normal = V3d(0, 0, 0) - plane.normal;  // without negative zeros
-  return Area(plane, std::move(rings));
+  return Area(plane, rings);
 }
 
 std::vector<Ring> findOutlines(const Description& scene, std::span<const std::string> names,

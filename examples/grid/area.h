@@ -1,6 +1,7 @@
 #pragma once
 #include <Imath/ImathVec.h>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ struct Plane {
 class Area {
  public:
   // REQUIRES: at least one ring, each of at least 3 vertices.
-  Area(const Plane& plane, std::vector<Ring> rings);
+  Area(const Plane& plane, const std::vector<Ring>& rings);
 
   const Plane& plane() const { return plane_; }
   // The boundary: edges with the area on their left and nothing on their right. Seams of holes and edges
@@ -44,8 +45,21 @@ class Area {
   double distanceToEdge(const V2d& p) const;
 
  private:
+  // The edges of a ring by horizontal strips, so that a point is compared with those of its strip alone.
+  class Rows {
+   public:
+    explicit Rows(const Ring& ring);
+    bool contain(const V2d& p) const;
+
+   private:
+    size_t rowAt(double y) const;
+
+    double low_ = std::numeric_limits<double>::infinity(), step_ = 0;
+    std::vector<std::vector<Edge>> rows_;
+  };
+
   Plane plane_;
-  std::vector<Ring> rings_;
+  std::vector<Rows> rings_;
   std::vector<Edge> edges_;
 };
 

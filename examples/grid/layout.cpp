@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "rad_parser/error.h"
@@ -31,10 +32,18 @@ Rectangle rectangleAround(const Area& area, const V2d& right) {
   return r;
 }
 
-// One side of the smallest rectangle around a polygon is parallel to one of its edges.
+// One side of the smallest rectangle around a polygon is parallel to one of its edges. Of thousands of
+// edges, as circles and coast lines have, only the longest are tried.
 Rectangle smallestRectangle(const Area& area) {
+  constexpr size_t kMost = 1000;
+  std::vector<Edge> sides = area.edges();
+  if (sides.size() > kMost) {
+    const auto length2 = [](const Edge& edge) { return (edge.to - edge.from).length2(); };
+    std::ranges::nth_element(sides, sides.begin() + kMost, std::greater<>(), length2);
+    sides.resize(kMost);
+  }
   Rectangle best = rectangleAround(area, V2d(1, 0));
-  for (const Edge& edge : area.edges()) {
+  for (const Edge& edge : sides) {
     V2d right = (edge.to - edge.from).normalized();
     while (!(right.x > std::abs(right.y) * (1 + 1e-9))) {
       if (std::abs(right.x - std::abs(right.y)) < 1e-9 && right.x > 0 && right.y > 0) break;

@@ -56,6 +56,23 @@ TEST(GridArea, BoundaryOfAnLIsItsSixEdges) {
   EXPECT_DOUBLE_EQ(area.distanceToEdge(V2d(2, 2.5)), 1);
 }
 
+// As programs draw circles. Comparing all corners with all others took seconds.
+TEST(GridArea, CirclesOfManyCornersAreReadyAtOnce) {
+  constexpr int kCorners = 20000;
+  std::string circle = "carpet polygon circle 0 0 60000";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    circle +=
+        " " + std::to_string(5 + 2 * std::cos(angle)) + " " + std::to_string(2 * std::sin(angle)) + " 0";
+  }
+  const Area area = areaOf(circle, "circle");
+  EXPECT_NEAR(static_cast<double>(area.edges().size()), kCorners, 100);
+  EXPECT_TRUE(area.contains(V2d(5 + 1.41, 1.41)));
+  EXPECT_FALSE(area.contains(V2d(5 + 1.42, 1.42)));
+  EXPECT_NEAR(area.distanceToEdge(V2d(5, 1)), 1, 1e-5);
+  EXPECT_EQ(layGrid(area, .5, 0).points.size(), 32u);
+}
+
 TEST(GridArea, SeamOfAHoleIsNoEdge) {
   const Area area = areaOf(kHole, "holed");
   EXPECT_EQ(area.edges().size(), 8u);
