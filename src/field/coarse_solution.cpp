@@ -20,8 +20,8 @@ using OfPatches = tuning::CoarseSolution;
 
 namespace {
 
-// Bounces whose light is computed. The light of all bounces is extrapolated from that of kComputed; so is that
-// of a limit above kMostComputed.
+// Bounces whose light is computed. The light of all bounces is extrapolated from that of kComputed; so is
+// that of a limit above kMostComputed.
 constexpr int kComputed = 16, kMostComputed = 40;
 
 // The light of b bounces lacks K^b e, where e is the light of all bounces, and K stands for one reflection by

@@ -412,7 +412,7 @@ TEST_F(BsdfMaterials, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errorOf("void BSDF m 8 0 half.xml 0 1 0 . -rz x 0 0"), "room.rad:1: BSDF \"m\": bad transform");
   write("bad.xml", "<WindowElement>\n</WindowElement>");
   EXPECT_EQ(errorOf("void BSDF m 6 0 " + folder_ + "/bad.xml 0 1 0 . 0 0"),
-            folder_ + "/bad.xml:1: no optical layer");
+            "room.rad:1: BSDF \"m\": " + folder_ + "/bad.xml:1: no optical layer");
 }
 
 }  // namespace
