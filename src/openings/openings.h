@@ -19,8 +19,8 @@
 
 namespace rsphere {
 
-// Panes or a hole, with their bounding rectangle. Its normal points to the dark side, which receives light
-// through the opening.
+// Panes or a hole, with their bounding rectangle, and gaps beside panes. Its normal points to the dark side,
+// which receives light through the opening.
 struct Opening : Rectangle {
   double filled = 0;  // area of its panes or of the hole (square world units)
   bool isHole = false;

@@ -6,6 +6,15 @@ std::span<const V3d> cornersOf(const Scene& scene, const Polygon& polygon) {
   return std::span(scene.vertices).subspan(polygon.firstVertex, polygon.vertices);
 }
 
+Imath::Box2d extentIn(const Rectangle& r, std::span<const V3d> places) {
+  Imath::Box2d around;
+  for (const V3d& place : places) {
+    const V3d way = place - r.corner;
+    around.extendBy({way.dot(r.x), way.dot(r.y)});
+  }
+  return around;
+}
+
 Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> polygons) {
   const std::span<const V3d> first = cornersOf(scene, *polygons.front());
   Rectangle r;
@@ -19,13 +28,10 @@ Rectangle rectangleAround(const Scene& scene, std::span<const Polygon* const> po
   }
   r.x = (r.x - r.x.dot(r.normal) * r.normal).normalized();
   r.y = r.normal.cross(r.x);
+  r.corner = first[0];
   Imath::Box2d around;
-  for (const Polygon* polygon : polygons)
-    for (const V3d& corner : cornersOf(scene, *polygon)) {
-      const V3d way = corner - first[0];
-      around.extendBy({way.dot(r.x), way.dot(r.y)});
-    }
-  r.corner = first[0] + around.min.x * r.x + around.min.y * r.y;
+  for (const Polygon* polygon : polygons) around.extendBy(extentIn(r, cornersOf(scene, *polygon)));
+  r.corner += around.min.x * r.x + around.min.y * r.y;
   r.width = around.size().x;
   r.height = around.size().y;
   return r;

@@ -28,6 +28,9 @@ inline bool contains(const Rectangle& r, const V3d& at) {
   return u >= 0 && v >= 0 && u <= r.width && v <= r.height;
 }
 
+// The box around places that are projected onto the rectangle's plane, along its x and y, from its corner.
+Imath::Box2d extentIn(const Rectangle& r, std::span<const V3d> places);
+
 // The form factor to the front of the rectangle from a place with this normal (unit), estimated from five of
 // its points. filled: area of the parts that send light (square world units). counts(at): whether a point
 // sends light.

@@ -84,6 +84,8 @@ struct Openings {
   // fill at least this fraction of their bounding rectangle. Most directions towards the rectangle then hit
   // them. With .91, no answer in tests/bench/sensitivity changes.
   static constexpr double kFilled = .5;
+  // Panes are widened over gaps beside them by steps of this fraction of their shorter side. Not varied.
+  static constexpr double kGapStep = 1. / 64;
 };
 
 // Openings as light sources of paths from both ends (portals.cpp).

@@ -74,6 +74,36 @@ class Probe {
     return seen;
   }
 
+  // Widens a pane over the gaps between it and what surrounds it, as where a frame stands in front of a
+  // smaller pane: light that enters beside a portal would be left to paths from the eye. A strip beside the
+  // pane is added if it is open to the sky, and on its dark side to the pane. Openings may not overlap: the
+  // light of the common part would be counted twice.
+  void widen(Opening& pane, std::span<const Opening> all) const {
+    const double shortest = std::min(pane.width, pane.height), step = tuning::Openings::kGapStep * shortest;
+    Rectangle turned = pane;
+    for (int closed = 0; closed < 4 && pane.filled > tuning::Openings::kFilled * pane.area(); ++closed) {
+      turned = {turned.at(1, 0), turned.y, -turned.x, turned.normal, turned.height, turned.width};
+      Rectangle strip = turned;
+      strip.corner -= step * strip.y;
+      strip.height = step;
+      const auto isIn = [&](const Opening& o) {
+        const Imath::Box2d there = extentIn(strip, o.corners());
+        return &o != &pane && std::abs(strip.above(o.at(.5, .5))) < shortest && there.max.x > 0 &&
+               there.min.x < strip.width && there.max.y > 0 && there.min.y < step;
+      };
+      int open = 0;
+      look(strip, -strip.normal, -lift_, [&](const V3d& point, const V3d& direction, uint64_t) {
+        open += t_.tracer().nearest(point, direction).surface == kNone &&
+                t_.tracer().nearest(point, strip.y, step).surface == kNone;
+      });
+      if (open <= tuning::Caps::kProbes / 4 || std::ranges::any_of(all, isIn)) continue;
+      turned.corner = strip.corner;
+      turned.height += step;
+      static_cast<Rectangle&>(pane) = turned;
+      closed = -1;
+    }
+  }
+
   // The room on the side of `normal`: mean brightness (W/sr/m2), and root mean square distance of its
   // surfaces (world units; 0 if nothing is hit).
   struct Room {
@@ -178,17 +208,13 @@ void merge(std::vector<Opening>& panes) {
     for (size_t j = i + 1; j < panes.size();) {
       Opening& a = panes[i];
       const Opening& b = panes[j];
-      const V3d between = b.corner - a.corner;
       // Panes within these tolerances are coplanar: 1e-4 of their size, and an angle of .08 degrees.
       const double scale = 1e-4 * (a.width + a.height);
-      Imath::Box2d around({0, 0}, {a.width, a.height});
-      bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(between.dot(a.normal)) < scale;
-      for (int c = 0; c < 4 && together; ++c) {
-        const V3d way = b.at(c & 1, c >> 1) - a.corner;
-        around.extendBy({way.dot(a.x), way.dot(a.y)});
-      }
+      Imath::Box2d around = extentIn(a, b.corners());
+      around.extendBy({{0, 0}, {a.width, a.height}});
       const Imath::V2d size = around.size();
-      together = together && size.x * size.y * tuning::Openings::kFilled < a.filled + b.filled;
+      const bool together = a.normal.dot(b.normal) > 1 - 1e-6 && std::abs(a.above(b.corner)) < scale &&
+                            size.x * size.y * tuning::Openings::kFilled < a.filled + b.filled;
       if (!together) {
         ++j;
         continue;
@@ -256,6 +282,8 @@ Openings findOpenings(const PreparedScene& prepared) {
     inside /= all;
     depth /= all;
   }
+  for (Opening& opening : found)
+    if (!opening.isHole) probe.widen(opening, found);
   merge(found);
   for (Opening& opening : found) {
     opening.radiance = opening.power / opening.filled;

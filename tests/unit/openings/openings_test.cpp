@@ -144,6 +144,34 @@ TEST(Openings, AreHolesBelowAnOverhang) {
   EXPECT_EQ(radianceAt(found, V3d(2, -3, 0), V3d(0, 0, 1)), 0) << "outdoors";
 }
 
+// A pane behind a frame is 10 cm smaller than its hole on each side. The opening is the hole, but not where
+// the gap is walled up.
+TEST(Openings, AreAsWideAsTheGapsBesideTheirPanes) {
+  const std::string pane = "clear polygon window 0 0 12 1.1 0 1.1 2.9 0 1.1 2.9 0 1.9 1.1 0 1.9\n";
+  const std::string frame =
+      "gray polygon frame 0 0 30 .9 .01 .9 3.1 .01 .9 3.1 .01 2.1 .9 .01 2.1 .9 .01 .9 1.1 .01 1.1 1.1 .01 "
+      "1.9 2.9 .01 1.9 2.9 .01 1.1 1.1 .01 1.1\n";
+  const std::string sill = "gray polygon sill 0 0 12 1 0 1 3 0 1 3 0 1.1 1 0 1.1\n";
+  const auto sizeOf = [&](const std::string& more) {
+    const Openings found = openingsOf(kSky + kRoom + kLid + pane + frame + more);
+    EXPECT_EQ(found.all().size(), 1);
+    const Opening& o = found.all()[0];
+    EXPECT_NEAR(o.filled, 1.8 * .8, 1e-9) << "the area of the pane";
+    EXPECT_NEAR(o.at(.5, .5).x, 2, .02);
+    const Imath::V2d size =
+        std::abs(o.x.x) > .5 ? Imath::V2d(o.width, o.height) : Imath::V2d(o.height, o.width);
+    return std::pair(size, o.at(.5, .5).z);
+  };
+  const auto [whole, middle] = sizeOf("");
+  EXPECT_NEAR(whole.x, 2, .03);
+  EXPECT_NEAR(whole.y, 1, .03);
+  EXPECT_NEAR(middle, 1.5, .02);
+  const auto [part, raised] = sizeOf(sill);
+  EXPECT_NEAR(part.x, 2, .03);
+  EXPECT_NEAR(part.y, .9, .03);
+  EXPECT_NEAR(raised, 1.55, .02);
+}
+
 // Both faces of a thick wall have a hole, but there is one way in.
 TEST(Openings, AreOneInAThickWall) {
   const std::string outer =
