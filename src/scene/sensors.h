@@ -20,11 +20,11 @@ struct Sensor {
 // 1.
 std::vector<Sensor> sensorsOf(std::span<const double> numbers, const std::string& name);
 
-// Adds sensors as goals, named "sensor1" and so on: light sources whose radiance times area is 1 W/sr, so that
-// each contributes like a goal of area 1. All other sources, except goals from setGoals(), are dark. A sensor
-// is a square of side kSensorSide that is hit only by rays aimed at it: it neither blocks nor reflects light.
-// Sensors in the same place are moved apart by two sides. Throws rad::Error if there are too many to be
-// numbered.
+// Adds sensors as goals, named "sensor1" and so on: light sources whose radiance times area is 1 W/sr, so
+// that each contributes like a goal of area 1. All other sources, except goals from setGoals(), are dark. A
+// sensor is a square of side kSensorSide that is hit only by rays aimed at it: it neither blocks nor
+// reflects light. Sensors in the same place are moved apart by two sides. Throws rad::Error if there are too
+// many to be numbered.
 void addSensors(Scene& scene, std::span<const Sensor> sensors);
 
 // The side of a sensor's square (world units): in metres, a hundredth of a millimetre. Small compared with
