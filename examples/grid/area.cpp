@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -18,7 +19,6 @@
 namespace grid {
 namespace {
 
-using Imath::Box2d;
 using rad::Description;
 using rad::Primitive;
 
@@ -29,66 +29,29 @@ double distance(const V2d& p, const Edge& edge) {
 }
 
 double sizeOf(const std::vector<Ring>& rings) {
-  Box2d box;
+  Imath::Box2d box;
   for (const Ring& ring : rings)
     for (const V2d& p : ring) box.extendBy(p);
   return box.size().length();
 }
 
-// Points by the squares of a lattice in which they lie, so that the corners of circles and coast lines, which
-// may be tens of thousands, are not compared with each other.
-class Lattice {
- public:
-  Lattice(const std::vector<Ring>& rings, double size) {
-    size_t points = 0;
-    for (const Ring& ring : rings) {
-      points += ring.size();
-      for (const V2d& p : ring) low_ = V2d(std::min(low_.x, p.x), std::min(low_.y, p.y));
-    }
-    side_ = static_cast<size_t>(std::sqrt(static_cast<double>(points))) + 1;
-    step_ = std::max(size, std::numeric_limits<double>::min()) / static_cast<double>(side_);
-    squares_.resize(side_ * side_);
-  }
-  void add(const V2d& p, size_t index) {
-    squares_[along(p.y - low_.y) * side_ + along(p.x - low_.x)].push_back(index);
-  }
-  // The points in all squares that the box touches: all points of the box, and others.
-  template <class Visit>
-  void visit(const Box2d& box, const Visit& visit) const {
-    for (size_t y = along(box.min.y - low_.y); y <= along(box.max.y - low_.y); ++y)
-      for (size_t x = along(box.min.x - low_.x); x <= along(box.max.x - low_.x); ++x)
-        for (const size_t index : squares_[y * side_ + x]) visit(index);
-  }
-
- private:
-  size_t along(double distance) const {
-    return static_cast<size_t>(std::clamp(distance / step_, 0., static_cast<double>(side_ - 1)));
-  }
-
-  V2d low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double step_;
-  size_t side_;
-  std::vector<std::vector<size_t>> squares_;
-};
-
-// A box around all that lies up to a distance from the straight line between two points.
-Box2d around(const V2d& a, const V2d& b, double distance) {
-  Box2d box(a);
-  box.extendBy(b);
-  return {box.min - V2d(distance, distance), box.max + V2d(distance, distance)};
-}
-
 // The edges of the rings, cut where a vertex lies on them; each place is covered once.
-std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double size, double samePlace) {
+std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double samePlace) {
   std::vector<V2d> vertices;
-  Lattice lattice(rings, size);
+  // By x, so that the corners of circles and coast lines, tens of thousands, are not all compared.
+  std::multimap<double, size_t> alongX;
+  const auto visit = [&](const V2d& from, const V2d& to, const auto& use) {
+    const auto [low, high] = std::minmax({from.x, to.x});
+    const auto end = alongX.upper_bound(high + 2 * samePlace);
+    for (auto at = alongX.lower_bound(low - 2 * samePlace); at != end; ++at) use(at->second);
+  };
   const auto indexOf = [&](const V2d& p) {
     size_t first = vertices.size();
-    lattice.visit(around(p, p, 2 * samePlace), [&](size_t v) {
+    visit(p, p, [&](size_t v) {
       if ((p - vertices[v]).length() <= samePlace) first = std::min(first, v);
     });
     if (first < vertices.size()) return first;
-    lattice.add(p, first);
+    alongX.emplace(p.x, first);
     vertices.push_back(p);
     return first;
   };
@@ -103,7 +66,7 @@ std::vector<Edge> piecesOf(const std::vector<Ring>& rings, double size, double s
   for (const auto& [from, to] : edges) {
     const V2d along = vertices[to] - vertices[from];
     std::vector<std::pair<double, size_t>> cuts;
-    lattice.visit(around(vertices[from], vertices[to], 2 * samePlace), [&](size_t v) {
+    visit(vertices[from], vertices[to], [&](size_t v) {
       if (v == from || v == to || distance(vertices[v], {vertices[from], vertices[to]}) <= samePlace)
         cuts.emplace_back((vertices[v] - vertices[from]).dot(along), v);
     });
@@ -231,7 +194,7 @@ Area::Area(const Plane& plane, const std::vector<Ring>& rings) : plane_(plane) {
   for (const Ring& ring : rings) rings_.emplace_back(ring);
   const double size = sizeOf(rings);
   // An edge is part of the boundary if the area lies on one of its sides only.
-  for (const Edge& piece : piecesOf(rings, size, 1e-6 * size)) {
+  for (const Edge& piece : piecesOf(rings, 1e-6 * size)) {
     const V2d along = piece.to - piece.from, middle = (piece.from + piece.to) / 2;
     const V2d left = V2d(-along.y, along.x).normalized() * (1e-5 * size);
     const bool onLeft = contains(middle + left), onRight = contains(middle - left);
