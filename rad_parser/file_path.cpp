@@ -44,6 +44,7 @@ FileAccess FileAccess::foldersOf(std::span<const std::string> given) {
     folder = std::filesystem::canonical(folder.empty() ? "." : folder, missing);
     if (!missing) allowed.push_back((folder / "").string());
   };
+  // The colon keeps an empty folder at the end, which is the current one.
   const std::string path = libraryPath(), folders = path + ':';
   for (const std::string_view folder : split(folders, ":")) add(folder);
   for (const std::string& name : given)
@@ -93,7 +94,7 @@ std::optional<std::string> findFile(std::string_view name, std::string_view sear
     if (path && !(readable(*path) && access.allows(*path))) path.reset();
     return path;
   }
-  const std::string folders = std::string(searchPath) + ':';
+  const std::string folders = std::string(searchPath) + ':';  // as in foldersOf()
   for (std::string_view directory : split(folders, ":")) {
     if (directory == ".") directory = {};  // so that messages say "desk.rad" instead of "./desk.rad"
     std::string path = joinPath(base, joinPath(directory, name));

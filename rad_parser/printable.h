@@ -37,7 +37,8 @@ constexpr std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-// The parts of a text that end at one of these characters, and what follows the last one, unless it is empty.
+// The parts of a text (views into it) that end at one of these characters, and what follows the last one,
+// unless it is empty.
 inline std::vector<std::string_view> split(std::string_view text, std::string_view ends) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {

@@ -41,6 +41,8 @@ void AnswerWriter::eachPart(const Color& color, const Write& write) const {
   for (size_t i = 0; i < options_.contributors.size(); ++i) write(color.part(i));
 }
 
+// The error of a part's brightness is an upper bound that assumes full correlation of the errors of the
+// channels. They are nearly correlated, because the same paths contribute to all channels.
 void AnswerWriter::writeError(RecordText& text, const RayAnswer& answer) const {
   if (options_.contributors.empty())
     return colors_.writeError(text, answer.standardError, answer.brightnessError);
@@ -91,8 +93,6 @@ void AnswerWriter::write(std::string& bytes, const RayAnswer& answer, uint64_t r
   text.end();
 }
 
-// The error of the brightness is an upper bound that assumes full correlation of the errors of the channels.
-// They are nearly correlated, because the same paths contribute to all channels.
 void AnswerWriter::writeLightVector(RecordText& text, const PointAnswer& answer) const {
   if (options_.contributors.empty()) return text.vector(answer.lightVector);
   const Irradiance* const f = answer.facing;
@@ -132,7 +132,7 @@ void AnswerWriter::writeColors(RecordText& text, const PointQuantity& quantity,
       if (quantity.form == PointQuantity::Form::colors)
         colors_.write(text, own);
       else
-        colors_.writeError(text, own, parts > 0 ? brightness(own) : ofBrightness);
+        colors_.writeError(text, own, parts > 0 ? brightness(own) : ofBrightness);  // as in writeError()
     });
 }
 

@@ -14,7 +14,7 @@ unsigned wantedThreads(int asked);
 // scene and the answers. The result only changes with these limits.
 unsigned threadCount(int asked);
 
-// What `make` makes for each of these threads, by thread.
+// The results of threadCount(asked) calls of make(), one for each thread.
 template <class Make>
 auto forThreads(int asked, const Make& make) {
   auto all = std::make_shared<std::vector<decltype(make())>>();

@@ -18,7 +18,7 @@
 
 namespace rsphere {
 
-using Tristimulus = V3d;  // y is luminance
+using Tristimulus = V3d;  // values x, y, z; y is luminance
 // Converts to RADIANCE's primaries and white point. Colors outside their gamut are mixed with gray of the
 // same luminance until no channel is negative.
 Color rgbOf(const Tristimulus& c);

@@ -27,7 +27,8 @@ void put(double* to, const V3d& v) {
   to[2] = v.z;
 }
 
-// Without the byte order mark of UTF-8. Only XML may be in UTF-16.
+// The text of a file without the byte order mark of UTF-8. Throws rad::Error if the file cannot be read, or
+// is in UTF-16 and no XML.
 std::string readText(const std::string& path) {
   std::string text = rad::OpenFile(path).contents(path);
   if (text.starts_with(rad::kByteOrderMark)) text.erase(0, rad::kByteOrderMark.size());

@@ -86,7 +86,7 @@ class Probe {
       Rectangle strip = turned;
       strip.corner -= step * strip.y;
       strip.height = step;
-      const auto isIn = [&](const Opening& o) {
+      const auto overlaps = [&](const Opening& o) {
         const Imath::Box2d there = extentIn(strip, o.corners());
         return &o != &pane && std::abs(strip.above(o.at(.5, .5))) < shortest && there.max.x > 0 &&
                there.min.x < strip.width && there.max.y > 0 && there.min.y < step;
@@ -96,7 +96,7 @@ class Probe {
         open += t_.tracer().nearest(point, direction).surface == kNone &&
                 t_.tracer().nearest(point, strip.y, step).surface == kNone;
       });
-      if (open <= tuning::Caps::kProbes / 4 || std::ranges::any_of(all, isIn)) continue;
+      if (open <= tuning::Caps::kProbes / 4 || std::ranges::any_of(all, overlaps)) continue;
       turned.corner = strip.corner;
       turned.height += step;
       static_cast<Rectangle&>(pane) = turned;
