@@ -185,7 +185,6 @@ class PartSampler {
         jitter_(how.jitter),
         allowed_(how.largest / 2),
         splitsBalls_(how.splitsBalls),
-        tubesInDepth_(how.tubesInDepth && how.jitter > 0),
         random_(random),
         samples_(samples) {}
 
@@ -218,7 +217,6 @@ class PartSampler {
   double jitter_;   // -dj
   double allowed_;  // largest half-extent of a part relative to its distance (half of -ds)
   bool splitsBalls_;
-  bool tubesInDepth_;
   Random& random_;
   std::vector<SourceSample>& samples_;
 };
@@ -375,23 +373,25 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   if (fromAxis <= radius) return;  // inside, or looking at an open end
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
-  // The visible half of the tube extends to this sine on either side of `facing`.
-  const double widest = std::sqrt(1 - radius * radius / (fromAxis * fromAxis));
-  // Samples are uniform along the axis and across the visible width: the element of area is dx dz / cosine.
+  const double widest = std::asin(radius / fromAxis);  // half of the angle that the tube's width subtends
+  // With -dj 1, samples lie on the visible side, uniform along the axis and by the angle across it. In rtrace
+  // they lie in the plane through the axis, which loses light: 2% at four radii from the axis.
   const auto addOnSide = [&](const SourcePart& part, const V3d& middle) {
-    const double sine = jitter_ * (2 * random_.uniform() - 1) * widest;
-    const double cosine = std::sqrt(1 - sine * sine);
-    const V3d normal = cosine * facing + sine * aside, aim = middle + radius * normal;
+    const double angle = (2 * random_.uniform() - 1) * widest;
+    const V3d across = std::sin(angle) * aside - std::cos(angle) * facing;
+    const double offset = fromAxis * std::sin(angle);
+    const double distance =
+        fromAxis * std::cos(angle) - std::sqrt(std::max(0., radius * radius - offset * offset));
+    const V3d aim = distance * across + middle.dot(axis) * axis;
     const double length = aim.length();
-    add(aim / length,
-        tube.area * (part.s1 - part.s0) * widest / cosine * std::max(0., -aim.dot(normal)) /
-            (length * length * length),
-        length);
+    const double solidAngle =
+        2 * widest * 2 * halfLength * (part.s1 - part.s0) * distance * distance / (length * length * length);
+    add(aim / length, solidAngle, length);
   };
   const auto use = [&](const SourcePart& part, const V3d& unjittered) {
     const V3d middle =
         jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
-    if (tubesInDepth_) return addOnSide(part, middle);
+    if (jitter_ >= 1) return addOnSide(part, middle);
     const V3d across = axis.cross(middle).normalized();
     const double side = jitter_ > 0 ? jitter_ * (2 * random_.uniform() - 1) * radius : 0;
     const V3d aim = middle + side * across;
@@ -505,13 +505,15 @@ double LightSources::density(const SourceSample& hit, const V3d& point) const {
     return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
   }
   if (const auto* tube = source.as<TubeLight>()) {
-    // Uniform along the axis and across the visible width: the element of area is dx dz / facing.
+    // Uniform along the axis and by the angle across it, of which an element of area fills dx facing / rho.
     const V3d axis = tube->half.normalized(), from = point - source.center;
-    const V3d away = from - from.dot(axis) * axis;
-    const double radius = tube->area / (4 * tube->half.length()), fromAxis = away.length();
+    const V3d away = from - from.dot(axis) * axis, there = from + distance * hit.direction;
+    const V3d normal = there - there.dot(axis) * axis, across = normal - away;
+    const double halfLength = tube->half.length(), radius = tube->area / (4 * halfLength),
+                 fromAxis = away.length();
     if (fromAxis <= radius) return 0;
-    const double facing = (from + distance * hit.direction).dot(away) / (radius * fromAxis);
-    return std::max(0., facing) / (tube->area * std::sqrt(1 - radius * radius / (fromAxis * fromAxis)));
+    const double facing = -across.dot(normal) / (radius * across.length2());
+    return std::max(0., facing) / (4 * halfLength * std::asin(radius / fromAxis));
   }
   // Rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its center.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;

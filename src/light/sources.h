@@ -31,10 +31,6 @@ struct SourceSampling {
   // Whether balls are split, too, if they are jittered. rtrace never splits balls. Where many rays are
   // averaged, splitting them does not pay.
   bool splitsBalls = false;
-  // Jittered samples of a cylinder lie on the side that faces the point. If false, they lie in the plane
-  // through its axis as in rtrace. Rays aimed past the rim then miss, and a short wide cylinder loses much of
-  // its light ("source aspect too small").
-  bool tubesInDepth = false;
 };
 
 class LightSources {
@@ -64,7 +60,7 @@ class LightSources {
     sampleParts(source, point, towards, how, random, samples);
   }
   // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
-  // has hit, if the source is not split, with jitter 1 and tubesInDepth. hit: its source, direction, distance
+  // has hit, if the source is not split, with jitter 1. hit: its source, direction, distance
   // and cosine. REQUIRES that the source is not distant.
   double density(const SourceSample& hit, const V3d& point) const;
 

@@ -108,8 +108,7 @@ VertexLight::Chosen VertexLight::chooseSource(const PlainPlace& at, double fines
   if (source == weights.size()) return {};
   auto& samples = scratch.samples;
   samples.clear();
-  prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal, false, true}, random,
-                            samples);
+  prepared_.lights().sample(LightId(sources[source]), at.point, {finest, 1, at.normal}, random, samples);
   const auto arrives = [&](size_t i) {
     const double cosine = at.normal.dot(samples[i].direction);
     return samples[i].cosine > 0 && cosine > kNegligible ? cosine * samples[i].solidAngle : 0;

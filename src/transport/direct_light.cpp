@@ -201,7 +201,7 @@ uint32_t DirectLight::findContributions(Receiver at, DirectCoefficient coefficie
   // Not needed after indirect bounces and in sphere mode, where the noise averages out.
   const bool splitsBalls = isRayMode(settings_.mode) && ray.ambientLevel == 0;
   const SourceSampling how{divides ? o.sourceSubstructuring / ray.weight : 0, o.directJitter, front,
-                           splitsBalls, !isRayMode(settings_.mode)};
+                           splitsBalls};
   // If paths from both ends estimate all direct light of known sources, no shadow rays are sent to them.
   // Otherwise shadow rays estimate the part of their light that passes unknown surfaces.
   const PlainSurfaces* const leftOut =
@@ -324,8 +324,7 @@ void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, cons
   for (size_t i = 0; i < sources.size(); ++i) {
     const double weight = scratch_.sourceWeights[i];
     const auto add = [&](double factor) {
-      addSamples(at, LightId(sources[i]), {0, 1, front, false, !isRayMode(settings_.mode)}, coefficientOf,
-                 factor, value);
+      addSamples(at, LightId(sources[i]), {0, 1, front}, coefficientOf, factor, value);
     };
     if (each && weight > 0) add(1);
     if (each) continue;
@@ -335,7 +334,7 @@ void DirectLight::addOfChosen(Receiver at, DirectCoefficient coefficientOf, cons
 
 void DirectLight::addFromSource(const RayEnd& end, LightId source, DirectCoefficient coefficientOf,
                                 Radiance& value) {
-  const SourceSampling how{0, t_.options().directJitter, {0, 0, 0}, false, !isRayMode(settings_.mode)};
+  const SourceSampling how{0, t_.options().directJitter, {0, 0, 0}};
   addSamples({end, end.hit.point}, source, how, coefficientOf, 1, value);
 }
 
