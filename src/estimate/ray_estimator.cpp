@@ -15,14 +15,14 @@
 namespace rsphere {
 namespace {
 
-constexpr size_t kSets = RayEstimator::kSets, kSolutions = RayEstimator::kSolutions;
-constexpr size_t kInHalf = kSets / 2;
-static_assert(kInHalf == kSolutions);  // sets k and k + kSolutions belong to different halves
+constexpr size_t kSets = RayEstimator::kSets, kInHalf = kSets / 2;
+static_assert(RayEstimator::kSolutions == kSets);  // the halves share no patches
 
 // All gathers of one ray so far. The sets of a half have equal numbers of rays.
 class Gathers {
  public:
-  Gathers(bool share, const SpectralSampling* sampling) : share_(share), sampling_(sampling) {}
+  Gathers(bool usesPatches, const SpectralSampling* sampling)
+      : usesPatches_(usesPatches), sampling_(sampling) {}
 
   // A round sends gathers of equal size in all sets of a half.
   void beginRound(size_t half) { halves_[half].rounds.emplace_back(); }
@@ -99,16 +99,15 @@ class Gathers {
     for (const Radiance& value : values) sum += Variance::of(Irradiance((value - mean).color), sampling_);
     return sum * (1. / static_cast<double>(values.size() - 1));
   }
-  // From the spread of the means of the gathers of each solution; 0 if sets share none.
+  // From the spread of the means of the sets of each half, whose solutions are their own; 0 without patches.
   Variance ofSolutions() const {
-    if (!share_) return {};
-    std::array<Radiance, kInHalf> means = halves_[0].means();
-    const auto others = halves_[1].means();
-    for (size_t k = 0; k < kInHalf; ++k) means[k] = (means[k] + others[k]) / 2;
-    return spreadOf(means) * (tuning::RaySets::kOfSolutions / kInHalf);
+    if (!usesPatches_) return {};
+    Variance both = spreadOf(halves_[0].means());
+    both += spreadOf(halves_[1].means());
+    return both * (tuning::RaySets::kOfSolutions / (4 * kInHalf));
   }
 
-  bool share_;  // whether sets share solutions
+  bool usesPatches_;
   const SpectralSampling* sampling_;
   std::array<Half, 2> halves_;
   Radiance mirrored_;  // times rays

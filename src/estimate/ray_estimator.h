@@ -8,8 +8,8 @@
 //
 // With -aa above 0, the light of the first diffuse surface is gathered and not interpolated, because the
 // error of an interpolation does not follow from any spread. The light of later surfaces comes from patches
-// (coarse_solution.h), whose noise is common to all rays. The sets therefore use kSolutions independent
-// solutions in turn. The error is at least that which the spread of the solutions' means shows.
+// (coarse_solution.h), whose noise is common to all rays. Each set therefore uses a solution of its own. The
+// error is at least that which the spread of the means of sets shows.
 //
 // -Sa: the sets are divided into two halves. The gathers of one half decide how many rays the sets of the
 // other half get, so that the number of rays does not depend on the values that are averaged: a half that
@@ -26,7 +26,7 @@ namespace rsphere {
 
 class RayEstimator {
  public:
-  static constexpr size_t kSets = 8, kSolutions = 4;
+  static constexpr size_t kSets = 8, kSolutions = kSets;
 
   struct Options {
     double accuracy = 0;  // -Sa  largest standard error relative to the value; 0: one round of sets

@@ -37,21 +37,22 @@ struct RaySets {
   // Each round multiplies the number of rays by at most kGrowth, and at least kLeastGrowth if at all.
   static constexpr double kGrowth = 3, kLeastGrowth = 1.15;
   // With patches: the error of gathers that halves request, relative to the accuracy. The rest is for the
-  // noise of patches, of which four solutions tell too little to decide on rays. Measured: true/stated by
+  // noise of patches, of which eight solutions tell too little to decide on rays. Measured: true/stated by
   // lamps is 1.16 with .7, and 1.09 with .76 (2026-11-30-sensors.txt).
   static constexpr double kOfGathers = .75;
   // -Sa: if the error is too large in the end, there are at least kAtLast times as many rays, unless the
   // variance of gathers is below kLargePart of the accuracy's square: more rays would hardly help. Chosen.
   static constexpr double kAtLast = 1.5, kLargePart = .3;
   // Factor on the variance that the spread of the solutions shows. It counts where it is larger than that of
-  // the gathers, which happens by chance as well, because there are only four: with .8, errors are a
-  // tenth too large where solutions have no noise, and a tenth too small where they have all of it.
+  // the gathers, which happens by chance as well, because there are only eight: with .8, errors are 5% too
+  // large where solutions have no noise, and a tenth too small where they have all of it. Measured: with 1,
+  // -Sa takes a tenth more time by daylight, and more where patches are noisy (2026-11-30-solutions.txt).
   static constexpr double kOfSolutions = .8;
   // -Sa: patches are too noisy if the error that the spread of their solutions shows is above kTooNoisy times
   // the accuracy: measured. With 1, a museum with spots takes 2.4 times the time for .9 times the error; with
   // 1.5, 1.6 times (2026-11-29-tails.txt). Its square is also above kByPatches times the variance of the
-  // gathers: chosen. In the first rounds, when the noise of gathers is larger, four solutions without noise
-  // of their own exceed it once in 500 times.
+  // gathers: chosen. When the noise of gathers is larger, eight solutions exceed it by chance less than once
+  // in 10,000 times.
   static constexpr double kTooNoisy = 1.5, kByPatches = 5;
   // Rays whose value is below this fraction of the average radiance in view of the scene's surfaces are
   // answered as if their value were as large. In daylit models that average is mostly that of the ground

@@ -46,7 +46,7 @@ namespace rsphere {
 
 class CoarseSolution {
  public:
-  static constexpr size_t kMostSolutions = 4;  // of FieldOptions::solutions
+  static constexpr size_t kMostSolutions = 8;  // of FieldOptions::solutions
 
   // Keeps a reference to the scene. bounds: of everything that rays can hit. room: the size of a room that is
   // lit through openings (world units); few rays hit the openings, so that important patches need more rays.
