@@ -364,6 +364,9 @@ void PartSampler::addMiddles(const PlaneLight& plane, const V3d& towards) {
   }
 }
 
+// The sine of the angle to a place that far along and across the axis.
+double sineAlong(double along, double across) { return along / std::hypot(along, across); }
+
 void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   const V3d axis = tube.half.normalized();
   const double halfLength = tube.half.length();
@@ -374,24 +377,23 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
   const double widest = std::asin(radius / fromAxis);  // half of the angle that the tube's width subtends
-  // With -dj 1, samples lie on the visible side, uniform along the axis and by the angle across it. In rtrace
-  // they lie in the plane through the axis, which loses light: 2% at four radii from the axis.
-  const auto addOnSide = [&](const SourcePart& part, const V3d& middle) {
+  // With -dj 1, samples lie on the visible side, uniform by solid angle for each angle across. In rtrace they
+  // lie in the plane through the axis, which loses light: 2% at four radii from the axis.
+  const auto addOnSide = [&](const SourcePart& part) {
     const double angle = (2 * random_.uniform() - 1) * widest;
     const V3d across = std::sin(angle) * aside - std::cos(angle) * facing;
     const double offset = fromAxis * std::sin(angle);
     const double distance =
         fromAxis * std::cos(angle) - std::sqrt(std::max(0., radius * radius - offset * offset));
-    const V3d aim = distance * across + middle.dot(axis) * axis;
-    const double length = aim.length();
-    const double solidAngle =
-        2 * widest * 2 * halfLength * (part.s1 - part.s0) * distance * distance / (length * length * length);
-    add(aim / length, solidAngle, length);
+    const double least = sineAlong(along + (2 * part.s0 - 1) * halfLength, distance),
+                 most = sineAlong(along + (2 * part.s1 - 1) * halfLength, distance);
+    const double sine = least + random_.uniform() * (most - least), cosine = std::sqrt(1 - sine * sine);
+    if (cosine > 0) add(cosine * across + sine * axis, 2 * widest * (most - least), distance / cosine);
   };
   const auto use = [&](const SourcePart& part, const V3d& unjittered) {
+    if (jitter_ >= 1) return addOnSide(part);
     const V3d middle =
         jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
-    if (jitter_ >= 1) return addOnSide(part, middle);
     const V3d across = axis.cross(middle).normalized();
     const double side = jitter_ > 0 ? jitter_ * (2 * random_.uniform() - 1) * radius : 0;
     const V3d aim = middle + side * across;
@@ -505,15 +507,14 @@ double LightSources::density(const SourceSample& hit, const V3d& point) const {
     return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 1 / plane->area;
   }
   if (const auto* tube = source.as<TubeLight>()) {
-    // Uniform along the axis and by the angle across it, of which an element of area fills dx facing / rho.
-    const V3d axis = tube->half.normalized(), from = point - source.center;
-    const V3d away = from - from.dot(axis) * axis, there = from + distance * hit.direction;
-    const V3d normal = there - there.dot(axis) * axis, across = normal - away;
+    const V3d axis = tube->half.normalized(), towards = source.center - point;
     const double halfLength = tube->half.length(), radius = tube->area / (4 * halfLength),
-                 fromAxis = away.length();
+                 along = towards.dot(axis), fromAxis = (towards - along * axis).length();
     if (fromAxis <= radius) return 0;
-    const double facing = -across.dot(normal) / (radius * across.length2());
-    return std::max(0., facing) / (4 * halfLength * std::asin(radius / fromAxis));
+    const double across = distance * hit.direction.cross(axis).length();
+    const double solidAngle = 2 * std::asin(radius / fromAxis) *
+                              (sineAlong(along + halfLength, across) - sineAlong(along - halfLength, across));
+    return solidAngle > 0 ? cosine / (distance * distance * solidAngle) : 0;
   }
   // Rays are uniform in the cone that the ball subtends. The law of cosines gives the distance to its center.
   const double r = source.radius, square = distance * distance + r * r + 2 * distance * r * cosine;

@@ -524,14 +524,15 @@ TEST(Source, DensityIsThatOfItsSamples) {
                         Case{disk, V3d(.3, .2, 1.6), kPi}, Case{disk, V3d(3, -2, -20), kPi},
                         Case{ball, V3d(0, 0, 1.2), 2 * kPi * .25 * (1 - .5 / .8)},
                         Case{ball, V3d(0, 3, -2), 2 * kPi * .25 * (1 - .5 / 5)},
-                        Case{tube, V3d(.12, .3, 2), .3 * std::acos(.1 / .12)},
+                        Case{tube, V3d(.3, .3, 2), .3 * std::acos(.1 / .3)},
                         Case{tube, V3d(-3, 8, -2), .3 * std::acos(.1 / 5)}}) {
     const Scene scene = sceneOf(light(c.surface));
     const LightSources sources(scene);
     const LightId source = *sources.all().ids().begin();
     Random random(3);
     Sample area;
-    for (int i = 0; i < 40000; ++i) {
+    const int count = c.surface == tube ? 160000 : 40000;  // few samples meet the rims of a tube
+    for (int i = 0; i < count; ++i) {
       std::vector<SourceSample> samples;
       sources.sample(source, c.point, {0, 1}, random, samples);
       area.add(samples.empty() ? 0 : 1 / sources.density(samples[0], c.point));
