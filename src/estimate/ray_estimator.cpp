@@ -16,7 +16,6 @@ namespace rsphere {
 namespace {
 
 constexpr size_t kSets = RayEstimator::kSets, kInHalf = kSets / 2;
-static_assert(RayEstimator::kSolutions == kSets);  // the halves share no patches
 
 // All gathers of one ray so far. The sets of a half have equal numbers of rays.
 class Gathers {

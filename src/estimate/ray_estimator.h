@@ -26,7 +26,7 @@ namespace rsphere {
 
 class RayEstimator {
  public:
-  static constexpr size_t kSets = 8, kSolutions = kSets;
+  static constexpr size_t kSets = 8, kSolutions = kSets;  // the sets of a ray share no patches
 
   struct Options {
     double accuracy = 0;  // -Sa  largest standard error relative to the value; 0: one round of sets

@@ -364,7 +364,8 @@ void PartSampler::addMiddles(const PlaneLight& plane, const V3d& towards) {
   }
 }
 
-// The sine of the angle to a place that far along and across the axis.
+// The sine of the angle between the plane across a tube and the direction to a place this far along its axis
+// and across it.
 double sineAlong(double along, double across) { return along / std::hypot(along, across); }
 
 void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
@@ -377,29 +378,23 @@ void PartSampler::addTube(const TubeLight& tube, const V3d& towards) {
   const auto at = [&](double s, double) { return source_.center + (2 * s - 1) * tube.half; };
   const V3d facing = (along * axis - towards) / fromAxis, aside = axis.cross(facing);
   const double widest = std::asin(radius / fromAxis);  // half of the angle that the tube's width subtends
-  // With -dj 1, samples lie on the visible side, uniform by solid angle for each angle across. In rtrace they
-  // lie in the plane through the axis, which loses light: 2% at four radii from the axis.
+  // Jittered samples lie on the visible side, with -dj 1 uniform by solid angle for each angle across. In
+  // rtrace they lie in the plane through the axis, which loses light: 2% at four radii from the axis.
   const auto addOnSide = [&](const SourcePart& part) {
-    const double angle = (2 * random_.uniform() - 1) * widest;
+    const double angle = jitter_ * (2 * random_.uniform() - 1) * widest;
     const V3d across = std::sin(angle) * aside - std::cos(angle) * facing;
     const double offset = fromAxis * std::sin(angle);
     const double distance =
         fromAxis * std::cos(angle) - std::sqrt(std::max(0., radius * radius - offset * offset));
     const double least = sineAlong(along + (2 * part.s0 - 1) * halfLength, distance),
                  most = sineAlong(along + (2 * part.s1 - 1) * halfLength, distance);
-    const double sine = least + random_.uniform() * (most - least), cosine = std::sqrt(1 - sine * sine);
+    const double sine = jittered(least, most, jitter_, random_), cosine = std::sqrt(1 - sine * sine);
     if (cosine > 0) add(cosine * across + sine * axis, 2 * widest * (most - least), distance / cosine);
   };
   const auto use = [&](const SourcePart& part, const V3d& unjittered) {
-    if (jitter_ >= 1) return addOnSide(part);
-    const V3d middle =
-        jitter_ > 0 ? at(jittered(part.s0, part.s1, jitter_, random_), 0) - point_ : unjittered;
-    const V3d across = axis.cross(middle).normalized();
-    const double side = jitter_ > 0 ? jitter_ * (2 * random_.uniform() - 1) * radius : 0;
-    const V3d aim = middle + side * across;
-    const double length = aim.length();
-    const double cosine = aim.dot(axis) / length;
-    add(aim / length,
+    if (jitter_ > 0) return addOnSide(part);
+    const double length = unjittered.length(), cosine = unjittered.dot(axis) / length;
+    add(unjittered / length,
         tube.area * (part.s1 - part.s0) * std::sqrt(std::max(0., 1 - cosine * cosine)) / (length * length),
         length);
   };

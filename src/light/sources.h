@@ -60,8 +60,8 @@ class LightSources {
     sampleParts(source, point, towards, how, random, samples);
   }
   // The density, per area of the source (1/m2), with which sample() aims from a point at the place that a ray
-  // has hit, if the source is not split, with jitter 1. hit: its source, direction, distance
-  // and cosine. REQUIRES that the source is not distant.
+  // has hit, if the source is not split, with jitter 1. hit: its source, direction, distance and cosine.
+  // REQUIRES that the source is not distant.
   double density(const SourceSample& hit, const V3d& point) const;
 
  private:

@@ -253,9 +253,8 @@ TEST(Source, ShortWideCylinderLightsByItsSurface) {
       return meanIrradiance(scene, point, kUp, SourceSampling{.2, jitter}, 20000);
     };
     expectMean(mean(1), exact, 1.04);
-    if (point.z < 1.5) {
-      EXPECT_LT(mean(.99).mean(), .9 * exact) << "as in rtrace";
-    }
+    // Samples in the plane through the axis, as in rtrace, lose a tenth and more at three of these places.
+    EXPECT_NEAR(mean(.9).mean(), exact, .05 * exact);
   }
 }
 
@@ -539,6 +538,24 @@ TEST(Source, DensityIsThatOfItsSamples) {
     }
     SCOPED_TRACE(c.surface + fmt::format(" from {} {} {}", c.point.x, c.point.y, c.point.z));
     expectMean(area, c.area, 1.08);
+  }
+}
+
+// Each sample has the solid angle that follows from its density, also beside the rims of a near tube.
+TEST(Source, DensityNearATubeIsThatOfEachSample) {
+  const Scene scene = sceneOf(light("cylinder c\n0\n0\n7 0 0 2 0 1.5 2 .1\n"));
+  const LightSources sources(scene);
+  Random random(3);
+  std::vector<SourceSample> samples;
+  const auto density = [&](const SourceSample& s, double pointX) {
+    return sources.density(s, V3d(pointX, .3, 2)) * s.solidAngle * s.distance * s.distance / s.cosine;
+  };
+  for (int i = 0; i < 1000; ++i)
+    sources.sample(*sources.all().ids().begin(), V3d(.12, .3, 2), {0, 1}, random, samples);
+  EXPECT_GT(samples.size(), 990);
+  for (const SourceSample& s : samples) {
+    EXPECT_NEAR(density(s, .12), 1, 1e-6);
+    EXPECT_GT(std::abs(density(s, .121) - 1), 1e-6) << "from another place";
   }
 }
 
