@@ -51,7 +51,7 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(ContributionTrac
                                                                 const V3d& direction, double farthest,
                                                                 uint64_t seed) const {
   Estimate answer{ContributionList(tracer.components()), {}, {}};
-  constexpr size_t kSets = RayEstimator::kSets, kInHalf = kSets / 2;
+  constexpr size_t kSets = RayEstimator::kSets;
   const auto components = static_cast<size_t>(tracer.components());
   std::vector<ContributionList> sums(kSets, answer.means);  // of contributions times rays
   std::array<double, kSets> rays{};
@@ -66,23 +66,20 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(ContributionTrac
   answer.sum = estimator_.estimate(gather, seed);
 
   for (size_t set = 0; set < kSets; ++set) addTimes(1 / (kSets * rays[set]), sums[set], answer.means);
-  // The variance of the mean of a half is s^2 / kInHalf, and that of the mean of both a quarter of their sum.
-  // A set without a contribution to a column has 0 there.
+  // The variance of the mean of all sets is s^2 / kSets. A set that contributes nothing to a column has 0
+  // there.
   answer.variances.assign(answer.means.values().size(), 0);
-  constexpr double kOfSquares = 1. / (4 * kInHalf * (kInHalf - 1));
-  std::vector<double> mean(answer.variances.size());
-  for (const size_t half : {size_t{0}, kInHalf}) {
-    std::ranges::fill(mean, 0);
-    for (size_t set = half; set < half + kInHalf; ++set)
-      for (size_t i = 0; i < sums[set].values().size(); ++i) {
-        const size_t at =
-            answer.means.positionOf(sums[set].columns()[i / components]) * components + i % components;
-        const double value = sums[set].values()[i] / rays[set];
-        mean[at] += value / kInHalf;
-        answer.variances[at] += kOfSquares * value * value;
-      }
-    for (size_t at = 0; at < mean.size(); ++at)
-      answer.variances[at] -= kOfSquares * kInHalf * mean[at] * mean[at];
+  constexpr double kOfSquares = 1. / (kSets * (kSets - 1));
+  for (size_t set = 0; set < kSets; ++set)
+    for (size_t i = 0; i < sums[set].values().size(); ++i) {
+      const size_t at =
+          answer.means.positionOf(sums[set].columns()[i / components]) * components + i % components;
+      const double value = sums[set].values()[i] / rays[set];
+      answer.variances[at] += kOfSquares * value * value;
+    }
+  for (size_t at = 0; at < answer.variances.size(); ++at) {
+    const double mean = answer.means.values()[at];
+    answer.variances[at] -= kOfSquares * kSets * mean * mean;
   }
   // Rounding may leave a variance below 0 if all values are equal.
   for (double& variance : answer.variances) variance = std::max(0., variance);

@@ -3,8 +3,8 @@
 // (-oe and -Sa of rcontrib).
 //
 // The ray is estimated by the independent sets of RayEstimator, whose value here is the sum of all
-// contributions. The standard error of a contribution follows from the spread of the sets in each half. With
-// four sets in a half, the error of a single bin is itself uncertain by about 30%.
+// contributions. The standard error of a contribution follows from the spread of the sets. With eight sets,
+// the error of a single bin is itself uncertain by about a quarter.
 #include <vector>
 
 #include "contrib/tracked.h"

@@ -24,20 +24,23 @@ class Gathers {
       : usesPatches_(usesPatches), sampling_(sampling) {}
 
   // A round sends gathers of equal size in all sets of a half.
-  void beginRound(size_t half) { halves_[half].rounds.emplace_back(); }
+  void beginRound(size_t half) { rounds_[half].emplace_back(); }
   void add(size_t set, int rays, const TracedRay& ray) {
-    Half& half = halves_[set / kInHalf];
-    half.rounds.back().rays = rays;
-    half.rounds.back().values.push_back(ray.value);
-    half.sums[set % kInHalf] += ray.value * rays;
-    half.rays[set % kInHalf] += rays;
+    Round& round = rounds_[set / kInHalf].back();
+    round.rays = rays;
+    round.values.push_back(ray.value);
+    sums_[set] += ray.value * rays;
+    rays_[set] += rays;
     mirrored_ += ray.mirrored * rays;
     ++traced_;
   }
-  double raysOf(size_t half) const { return halves_[half].rays[0]; }  // of each set
+  double raysOf(size_t half) const { return rays_[half * kInHalf]; }  // of each set
   uint64_t traced() const { return traced_; }
 
-  Radiance mean(size_t half) const { return meanOf(halves_[half].means()); }
+  Radiance mean(size_t half) const {
+    const std::array<Radiance, kSets> all = means();
+    return meanOf(std::span(all).subspan(half * kInHalf, kInHalf));
+  }
   Radiance mean() const { return (mean(0) + mean(1)) / 2; }
   Radiance mirrored() const { return mirrored_ / (kInHalf * (raysOf(0) + raysOf(1))); }
 
@@ -45,7 +48,7 @@ class Gathers {
   // are independent, but for their solutions.
   Variance ofGathers(size_t half) const {
     Variance sum;
-    for (const Round& round : halves_[half].rounds) {
+    for (const Round& round : rounds_[half]) {
       const double weight = round.rays / (kInHalf * raysOf(half));
       sum += spreadOf(round.values) * (static_cast<double>(round.values.size()) * weight * weight);
     }
@@ -63,10 +66,10 @@ class Gathers {
             std::max(one.brightness, other.brightness)};
   }
 
-  // Whether the noise of patches is far above this error.
-  bool patchesExceed(double error) const {
+  // Whether the noise of patches is far above this error, and its variance above a multiple of the gathers'.
+  bool patchesExceed(double error, double timesGathers) const {
     const double shown = ofSolutions().brightness, most = tuning::RaySets::kTooNoisy * error;
-    return shown > most * most && shown > tuning::RaySets::kByPatches * ofGathers().brightness;
+    return shown > most * most && shown > timesGathers * ofGathers().brightness;
   }
 
  private:
@@ -74,18 +77,11 @@ class Gathers {
     int rays = 0;  // of each gather
     std::vector<Radiance> values;
   };
-  struct Half {
-    std::vector<Round> rounds;
-    std::array<Radiance, kInHalf> sums;  // of values times rays, by set
-    std::array<double, kInHalf> rays{};
-
-    std::array<Radiance, kInHalf> means() const {
-      std::array<Radiance, kInHalf> of;
-      for (size_t k = 0; k < kInHalf; ++k) of[k] = sums[k] / rays[k];
-      return of;
-    }
-  };
-
+  std::array<Radiance, kSets> means() const {
+    std::array<Radiance, kSets> of;
+    for (size_t k = 0; k < kSets; ++k) of[k] = sums_[k] / rays_[k];
+    return of;
+  }
   static Radiance meanOf(std::span<const Radiance> values) {
     Radiance sum;
     for (const Radiance& value : values) sum += value;
@@ -98,17 +94,17 @@ class Gathers {
     for (const Radiance& value : values) sum += Variance::of(Irradiance((value - mean).color), sampling_);
     return sum * (1. / static_cast<double>(values.size() - 1));
   }
-  // From the spread of the means of the sets of each half, whose solutions are their own; 0 without patches.
+  // From the spread of the means of all sets, whose solutions are their own; 0 without patches.
   Variance ofSolutions() const {
     if (!usesPatches_) return {};
-    Variance both = spreadOf(halves_[0].means());
-    both += spreadOf(halves_[1].means());
-    return both * (tuning::RaySets::kOfSolutions / (4 * kInHalf));
+    return spreadOf(means()) * (1. / kSets);
   }
 
   bool usesPatches_;
   const SpectralSampling* sampling_;
-  std::array<Half, 2> halves_;
+  std::array<std::vector<Round>, 2> rounds_;  // by half
+  std::array<Radiance, kSets> sums_;          // of values times rays, by set
+  std::array<double, kSets> rays_{};
   Radiance mirrored_;  // times rays
   uint64_t traced_ = 0;
 };
@@ -199,7 +195,8 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
   const auto addRound = [&](size_t half, double upTo) {
     const double more = upTo - all.raysOf(half);  // of each set
     const int most = gathers ? tuning::RaySets::kMostAtOnce : tuning::RaySets::kFirst;
-    const int times = std::max(tuning::RaySets::kLeastGathers, static_cast<int>(std::ceil(more / most)));
+    const int least = all.raysOf(half) > 0 ? 1 : tuning::RaySets::kFirstGathers;
+    const int times = std::max(least, static_cast<int>(std::ceil(more / most)));
     const int rays = std::max(1, static_cast<int>(more / times));
     all.beginRound(half);
     for (size_t k = half * kInHalf; k < (half + 1) * kInHalf; ++k) {
@@ -218,7 +215,8 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
   addRound(0, first_);
   addRound(1, first_);
   for (bool goesOn = target_ > 0; goesOn;) {
-    if (options_.accuracy > 0 && all.patchesExceed(target_ * valueOf(all.mean()))) {
+    if (options_.accuracy > 0 &&
+        all.patchesExceed(target_ * valueOf(all.mean()), tuning::RaySets::kByPatches)) {
       attempted.patchesTooNoisy = true;
       answer.reached = false;
       break;
@@ -247,6 +245,9 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
         if (!reached && helps) ask(half, all.raysOf(half) * std::max(excess, tuning::RaySets::kAtLast));
     }
     goesOn = asks();
+    if (!goesOn && !answer.reached)
+      attempted.patchesTooNoisy =
+          all.patchesExceed(target_ * valueOf(all.mean()), tuning::RaySets::kByPatchesAtLast);
     for (const size_t half : {0, 1})
       if (asked[half] > all.raysOf(half)) addRound(half, asked[half]);
   }
