@@ -124,6 +124,21 @@ TEST(RayEstimator, PatchesThatAreTooNoisyAreNotUsed) {
   EXPECT_GE(found.reached, .8);
 }
 
+// Solutions of a half may agree by chance. By the spread in each half, this error would be 0.
+TEST(RayEstimator, HalvesThatDifferHaveAnError) {
+  const Scene scene = sceneOf(kRoomWithALamp);
+  const Transport transport(scene, raysOf(.2), IrradianceAt::point);
+  const RayEstimator estimator(transport, {.accuracy = .01});
+  const auto gather = [](size_t set, int, uint64_t) {
+    TracedRay ray;
+    ray.value = Radiance(Color(set < RayEstimator::kSets / 2 ? 1 : 1.2));
+    return ray;
+  };
+  const RayEstimator::Estimate estimate = estimator.estimate(gather, 1);
+  EXPECT_NEAR(brightness(estimate.ray.value), 1.1, 1e-9);
+  EXPECT_NEAR(estimate.brightnessError, .1 / std::sqrt(7.), 1e-6);  // of eight values 1.1 +- .1
+}
+
 // A sensor in a closed box of the scene would take as many rays as are allowed.
 TEST(RayEstimator, ADarkSensorNeedsOnlyTheFloor) {
   const Repeats to = repeat(kRoomWithALamp, raysOf(0), {.accuracy = .01, .floor = 1e6}, 2);
