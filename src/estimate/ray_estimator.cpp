@@ -77,6 +77,8 @@ class Gathers {
     int rays = 0;  // of each gather
     std::vector<Radiance> values;
   };
+
+  // Of the gathers of each set.
   std::array<Radiance, kSets> means() const {
     std::array<Radiance, kSets> of;
     for (size_t k = 0; k < kSets; ++k) of[k] = sums_[k] / rays_[k];

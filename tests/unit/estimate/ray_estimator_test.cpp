@@ -115,7 +115,7 @@ TEST(RayEstimator, ReachesTheAccuracy) {
 }
 
 // The noise of patches with few rays is not reduced by more rays of the sensors, which paths answer instead.
-// With patches alone, .58 of these answers reach the accuracy, and their error is .58%.
+// With patches alone, half of these answers reach the accuracy, and their error is .56%.
 TEST(RayEstimator, PatchesThatAreTooNoisyAreNotUsed) {
   RayOptions options = raysOf(.1);
   options.raysForPatches = 8;
