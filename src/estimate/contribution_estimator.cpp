@@ -55,10 +55,10 @@ ContributionEstimator::Estimate ContributionEstimator::estimate(ContributionTrac
   const auto components = static_cast<size_t>(tracer.components());
   std::vector<ContributionList> sums(kSets, answer.means);  // of contributions times rays
   std::array<double, kSets> rays{};
-  const auto gather = [&](size_t set, int count, uint64_t ownSeed) {
-    const ContributionList& list = tracer.trace(origin, direction, farthest, ownSeed, count);
-    addTimes(count, list, sums[set]);
-    rays[set] += count;
+  const auto gather = [&](const RayEstimator::Sent& sent) {
+    const ContributionList& list = tracer.trace(origin, direction, farthest, sent.seed, sent.rays);
+    addTimes(sent.rays, list, sums[sent.set]);
+    rays[sent.set] += sent.rays;
     TracedRay ray = tracer.ray();
     ray.value = sumOf(list, sampling_);
     return ray;

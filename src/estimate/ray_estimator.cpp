@@ -16,6 +16,7 @@ namespace rsphere {
 namespace {
 
 constexpr size_t kSets = RayEstimator::kSets, kInHalf = kSets / 2;
+static_assert(kInHalf % kInterleavedGathers == 0);
 
 // All gathers of one ray so far. The sets of a half have equal numbers of rays.
 class Gathers {
@@ -168,17 +169,22 @@ RayEstimator::Estimate RayEstimator::estimate(std::vector<PathTracer>& tracers, 
                                               const V3d& direction, double farthest, uint64_t seed,
                                               PathRequest request) const {
   const bool usesPatches = transport_.caches().coarse != nullptr;
-  const auto trace = [&](PathTracer& tracer, int rays, uint64_t ownSeed) {
-    request.rays = rays;
-    return tracer.trace(origin, direction, farthest, ownSeed, request);
+  const auto trace = [&](PathTracer& tracer, const Sent& sent) {
+    request.rays = sent.rays;
+    return tracer.trace(origin, direction, farthest, sent.seed, request);
   };
   const auto solutions = static_cast<size_t>(transport_.prepared().options().solutions);
-  const Attempt attempted =
-      attempt([&](size_t set, int rays, uint64_t own) { return trace(tracers[set % solutions], rays, own); },
-              seed, usesPatches);
+  const auto gather = [&](const Sent& sent) {
+    if (usesPatches)
+      request.interleaved = {.lattice = sent.together,
+                             .number = static_cast<int>(sent.set % kInterleavedGathers)};
+    return trace(tracers[sent.set % solutions], sent);
+  };
+  const Attempt attempted = attempt(gather, seed, usesPatches);
   if (!attempted.patchesTooNoisy) return attempted.estimate;
-  const Attempt byPaths = attempt(
-      [&](size_t, int rays, uint64_t own) { return trace(tracers.back(), rays, own); }, mixBits(seed), false);
+  request.interleaved.reset();
+  const Attempt byPaths =
+      attempt([&](const Sent& sent) { return trace(tracers.back(), sent); }, mixBits(seed), false);
   const bool better = byPaths.estimate.relativeError < attempted.estimate.relativeError;
   return (better ? byPaths : attempted).estimate;
 }
@@ -201,9 +207,13 @@ RayEstimator::Attempt RayEstimator::attempt(const Gather& gather, uint64_t seed,
     const int times = std::max(least, static_cast<int>(std::ceil(more / most)));
     const int rays = std::max(1, static_cast<int>(more / times));
     all.beginRound(half);
+    const uint64_t round = mixBits(~seed ^ mixBits(1 + all.traced()));
     for (size_t k = half * kInHalf; k < (half + 1) * kInHalf; ++k) {
       for (int i = 0; i < times; ++i) {
-        const TracedRay ray = gather(k, rays, mixBits(seed ^ mixBits(1 + all.traced())));
+        const TracedRay ray = gather({.set = k,
+                                      .rays = rays,
+                                      .seed = mixBits(seed ^ mixBits(1 + all.traced())),
+                                      .together = mixBits(round + i * kSets + k / kInterleavedGathers)});
         if (all.traced() == 0) answer.ray = ray;
         gathers = gathers || ray.gathers;
         all.add(k, rays, ray);

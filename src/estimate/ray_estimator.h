@@ -9,7 +9,9 @@
 // With -aa above 0, the light of the first diffuse surface is gathered and not interpolated, because the
 // error of an interpolation does not follow from any spread. The light of later surfaces comes from patches
 // (coarse_solution.h), whose noise is common to all rays. Each set therefore uses a solution of its own. The
-// error is at least that which the spread of the means of sets shows.
+// error is at least that which the spread of the means of sets shows. The gathers of each two sets then
+// share a lattice (PathRequest::interleaved): together they are more even than independent ones, and their
+// spread states an error that is rather too large. Without patches, it would be far too large.
 //
 // -Sa: the sets are divided into two halves. The gathers of one half decide how many rays the sets of the
 // other half get, so that the number of rays does not depend on the values that are averaged: a half that
@@ -58,8 +60,13 @@ class RayEstimator {
 
   // Traces the ray once, for a set (below kSets), with this number of rays in the gather of its first diffuse
   // surface and a seed of its own. The sets of a half, those below kSets / 2 or the others, have as many rays
-  // each.
-  using Gather = FunctionRef<TracedRay(size_t set, int rays, uint64_t seed)>;
+  // each. together: the same for one gather of each of kInterleavedGathers sets of a half.
+  struct Sent {
+    size_t set;
+    int rays;
+    uint64_t seed, together;
+  };
+  using Gather = FunctionRef<TracedRay(const Sent& sent)>;
   // The same for any quantity of the ray: `gather` puts it into TracedRay::value.
   Estimate estimate(const Gather& gather, uint64_t seed) const;
 

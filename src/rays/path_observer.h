@@ -1,6 +1,8 @@
 #pragma once
 // What a caller requests of a path, and the results of a path besides its radiance.
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "rays/ray_functions.h"
@@ -29,6 +31,9 @@ enum class ShownShadows : uint8_t {
   all                // also those that are blocked
 };
 
+// The number of gathers of different paths whose directions can be interleaved (PathRequest::interleaved).
+constexpr int kInterleavedGathers = 2;
+
 // The options of a single path. Only those that leave something out change the expected radiance.
 struct PathRequest {
   // Called for every ray. Descendants come before their ancestors, and the primary ray comes last (except
@@ -40,6 +45,13 @@ struct PathRequest {
   bool leavesOutIndirect = false, leavesOutLobes = false;
   // The number of rays of the gathers at the first diffuse surface; 0: -ad plus -as.
   int rays = 0;
+  // If set, the directions of these gathers and those of paths with the other numbers (below
+  // kInterleavedGathers) and the same `lattice` form one lattice. REQUIRES that all have the same `rays`.
+  struct Interleaved {
+    uint64_t lattice;
+    int number;
+  };
+  std::optional<Interleaved> interleaved = std::nullopt;
   // If not null, paths from both ends provide the indirect light of plain surfaces (plain_surfaces.h) that
   // the path hits before its first diffuse reflection. If the primary ray hits a plain surface directly or
   // through panes, the surface's diffuse reflection is left out, and so are shadow rays for its rough

@@ -54,7 +54,23 @@ double shareOf(const ShareOfMixture<One>& one, double all, const ShareOfMixture<
   return std::min(most, aimed * mean / all * unseen) * (one.aim.mean / mean);
 }
 
+constexpr double kGolden = .6180339887498949;
+
 }  // namespace
+
+// In the finer lattice, kInterleavedGathers steps forward are one step of each set. Of the generators with
+// this property, those chosen have the smallest errors with 16 to 310 directions.
+DirectionSet DirectionSet::interleaved(int count, int number, Random& common) {
+  constexpr int kSets = kInterleavedGathers;
+  DirectionSet set(count, common);
+  const int position = (number + static_cast<int>(kSets * common.uniform())) % kSets;
+  const Imath::V2d ofSet = evenly(1, 0, 0);
+  set.sequence = (set.sequence + position) / kSets;
+  set.azimuth += position * kGolden / kSets;
+  set.x += position * (1 + ofSet.x) / kSets;
+  set.y += position * (1 + ofSet.y) / kSets;
+  return set;
+}
 
 GatherDirections::GatherDirections(const Aims& aims, const V3d& point, const V3d& normal,
                                    const V3d& trueNormal, int rays)
@@ -95,14 +111,11 @@ double GatherDirections::density(const V3d& direction) const {
 }
 
 void GatherDirections::draw(const DirectionSet& set, Each each) const {
-  constexpr double kGolden = .6180339887498949;
-  const auto& [count, shifts, first, step] = set;
-  const auto [shift1, shift2, shift3] = shifts;
-  for (int i = first; i < count; i += step) {
+  for (int i = set.first; i < set.count; i += set.step) {
     // Systematic sampling: the directions of a kind are consecutive, and the number of each kind differs from
     // its expected value by less than 1. Within each kind, u is evenly spaced between 0 and 1.
-    double u = (i + shift1) / count;
-    const Imath::V2d even = evenly(static_cast<size_t>(i), shift2, shift3);
+    double u = (i + set.sequence) / set.count;
+    const Imath::V2d even = evenly(static_cast<size_t>(i), set.x, set.y);
     V3d direction;
     const auto isAimedAt = [&](const auto& part) {
       if (u < part.share) {
@@ -115,11 +128,11 @@ void GatherDirections::draw(const DirectionSet& set, Each each) const {
     if (!std::apply([&](const auto&... part) { return (isAimedAt(part) || ...); }, shares_)) {
       // A randomly shifted Fibonacci lattice over the projected hemisphere. It is as evenly distributed as a
       // jittered grid, for any number of rays.
-      const double around = shift2 + i * kGolden;
+      const double around = set.azimuth + i * kGolden;
       direction = diffuseDirection(normal_, std::min(1., u / unaimed()), around - std::floor(around));
     }
     if (direction.dot(normal_) <= 0 || direction.dot(trueNormal_) <= 0) continue;
-    each(direction, 1 / (density(direction) * count));
+    each(direction, 1 / (density(direction) * set.count));
   }
 }
 

@@ -18,11 +18,21 @@ namespace rsphere {
 // A lattice of directions with a random shift, or every `step`-th direction of it from `first` on.
 struct DirectionSet {
   int count;  // of the whole set
-  std::array<double, 3> shifts;
+  // Shifts: along the sequence, from 0 to the step between two directions, 1; of azimuths, in turns; of the
+  // points of evenly().
+  double sequence, azimuth, x, y;
   int first = 0, step = 1;
 
   DirectionSet(int count, Random& random)
-      : count(count), shifts{random.uniform(), random.uniform(), random.uniform()} {}
+      : count(count),
+        sequence(random.uniform()),
+        azimuth(random.uniform()),
+        x(azimuth),
+        y(random.uniform()) {}
+
+  // One of kInterleavedGathers sets with equal counts, numbered from 0, that form one finer lattice. common:
+  // in the same state for all of them. Each set by itself is like those of the other constructor.
+  static DirectionSet interleaved(int count, int number, Random& common);
 };
 
 class GatherDirections {

@@ -105,12 +105,18 @@ struct Gather {
     const Coefficient weight = settings.caches.field
                                    ? weightOf(prepared.options(), end.context, side.coefficient)
                                    : side.coefficient / weighedAs;
-    sendOverHemisphere(prepared, directions, state, end, side.point, side.kind,
-                       DirectionSet(rays, state.random), side.coefficient * share, weight,
-                       [&](const NextRay& next) {
+    sendOverHemisphere(prepared, directions, state, end, side.point, side.kind, directionSet(rays),
+                       side.coefficient * share, weight, [&](const NextRay& next) {
                          if (next.context.ambientLevel == 1) countDescendants(settings, state, next.context);
                          found(follower.follow(next.query, next.context).value * next.coefficient);
                        });
+  }
+
+  DirectionSet directionSet(int rays) const {
+    const auto& interleaved = state.request.interleaved;
+    if (!interleaved || end.context.ambientLevel > 0) return {rays, state.random};
+    Random common(interleaved->lattice);
+    return DirectionSet::interleaved(rays, interleaved->number, common);
   }
 };
 

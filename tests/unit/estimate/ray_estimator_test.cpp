@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -129,14 +130,36 @@ TEST(RayEstimator, HalvesThatDifferHaveAnError) {
   const Scene scene = sceneOf(kRoomWithALamp);
   const Transport transport(scene, raysOf(.2), IrradianceAt::point);
   const RayEstimator estimator(transport, {.accuracy = .01});
-  const auto gather = [](size_t set, int, uint64_t) {
+  const auto gather = [](const RayEstimator::Sent& sent) {
     TracedRay ray;
-    ray.value = Radiance(Color(set < RayEstimator::kSets / 2 ? 1 : 1.2));
+    ray.value = Radiance(Color(sent.set < RayEstimator::kSets / 2 ? 1 : 1.2));
     return ray;
   };
   const RayEstimator::Estimate estimate = estimator.estimate(gather, 1);
   EXPECT_NEAR(brightness(estimate.ray.value), 1.1, 1e-9);
   EXPECT_NEAR(estimate.brightnessError, .1 / std::sqrt(7.), 1e-6);  // of eight values 1.1 +- .1
+}
+
+// Gathers that are interleaved belong to different sets of one half, and have equal numbers of rays.
+TEST(RayEstimator, SetsShareLattices) {
+  const Scene scene = sceneOf(kRoomWithALamp);
+  const Transport transport(scene, raysOf(.1), IrradianceAt::point);
+  const RayEstimator estimator(transport, {});
+  std::map<uint64_t, std::vector<RayEstimator::Sent>> lattices;
+  const auto gather = [&](const RayEstimator::Sent& sent) {
+    lattices[sent.together].push_back(sent);
+    return TracedRay();
+  };
+  estimator.estimate(gather, 1);
+  EXPECT_GE(lattices.size(), 2 * RayEstimator::kSets / kInterleavedGathers) << "two gathers of each set";
+  for (const auto& [lattice, gathers] : lattices) {
+    ASSERT_EQ(gathers.size(), kInterleavedGathers);
+    for (size_t k = 0; k < gathers.size(); ++k) {
+      EXPECT_EQ(gathers[k].set % kInterleavedGathers, k);
+      EXPECT_EQ(gathers[k].set / kInterleavedGathers, gathers[0].set / kInterleavedGathers);
+      EXPECT_EQ(gathers[k].rays, gathers[0].rays);
+    }
+  }
 }
 
 // A sensor in a closed box of the scene would take as many rays as are allowed.

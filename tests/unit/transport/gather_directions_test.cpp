@@ -53,6 +53,45 @@ TEST(GatherDirections, HalfAreNotAimedAtSpots) {
   EXPECT_LE(largest, 2 + 1e-9);
 }
 
+// Sets that share a lattice are nearly as even together as one set of as many directions. Without a common
+// lattice (the spoiled twin), they are not.
+TEST(GatherDirections, InterleavedSetsFormOneLattice) {
+  const Traced room(kSunlitRoom, unbiased(2));
+  const Aims openings(room.transport().aims().of<Openings>());
+  const V3d point(2, 2, 3), normal(0, 0, -1);
+  constexpr int kSets = kInterleavedGathers;
+  double one = 0, together = 0, apart = 0;  // variances
+  for (const int count : {24, 32, 48, 64, 96, 128}) {
+    const GatherDirections directions(openings, point, normal, normal, count);
+    const auto sumOf = [&](const DirectionSet& set) {
+      double sum = 0;
+      directions.draw(set, [&](const V3d& d, double part) { sum += part * (d.y > .6 ? 2 : 1 + d.x * d.y); });
+      return sum;
+    };
+    Random random(1);
+    Sample ofOne, ofTogether, ofApart;
+    for (uint64_t seed = 0; seed < 1000; ++seed) {
+      double sum = 0, independent = 0;
+      for (int k = 0; k < kSets; ++k) {
+        Random common(seed);
+        const double part = sumOf(DirectionSet::interleaved(count, k, common));
+        if (k == 1) ofOne.add(part);
+        sum += part / kSets;
+        independent += sumOf({count, random}) / kSets;
+      }
+      ofTogether.add(sum);
+      ofApart.add(independent);
+    }
+    expectMean(ofOne, ofApart.mean());
+    expectMean(ofTogether, ofApart.mean());
+    one += std::pow(ofOne.standardError(), 2);
+    together += std::pow(ofTogether.standardError(), 2);
+    apart += std::pow(ofApart.standardError(), 2);
+  }
+  EXPECT_LT(together / one, .7 / kSets);
+  EXPECT_GT(apart / one, .7 / kSets) << "the spoiled twin";
+}
+
 // Directions that are not aimed have all of the weight of a hemisphere without bright places, in each set.
 TEST(GatherDirections, FewLeaveAWholeNumberUnaimed) {
   const Traced room(kSunlitRoom, unbiased(2));
