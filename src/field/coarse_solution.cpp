@@ -207,7 +207,7 @@ CoarseSolution::Effort CoarseSolution::effortFor(const FieldOptions& options, bo
   of.more = OfPatches::kMoreRays;
   of.least = several ? OfPatches::kLeastRaysOfSolutions : OfPatches::kLeastRays;
   of.usualShare = first ? OfPatches::kUsualShareAtFirst : OfPatches::kUsualShare;
-  of.forSlopes = of.forLinks = OfPatches::kFewestForSlopes;
+  of.forSlopes = of.forLinks = several ? OfPatches::kFewestOfSolutions : OfPatches::kFewestForSlopes;
   if (daylit) return of;
   const double coarser = OfPatches::kCoarserByLamps;
   const double fewer = first ? 1 : OfPatches::kFewerByLamps;

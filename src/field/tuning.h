@@ -147,7 +147,9 @@ struct CoarseSolution {
   // By daylight, the light of patches with fewer rays has no slopes: with slopes of at most 31 rays,
   // spherical means in a room with a window have twice the noise (measured). By lamps, only links do without
   // slopes, if there are several solutions (2026-11-29-coves.txt).
-  static constexpr double kFewestForSlopes = 32;
+  // With several solutions, which have few rays each: measured. With 32, sensors in a cell with a window have
+  // 1.2 times the variance at -Sa .01, and take a fifth more time (2026-11-30-lattices.txt).
+  static constexpr double kFewestForSlopes = 32, kFewestOfSolutions = 48;
   // Least number of rays of a patch. Measured: with 16, the same error takes up to a sixth more time.
   RSPHERE_TUNED(CoarseSolution, double, kLeastRays, 8);
   // kLeastRays by daylight if there are several solutions, whose light is averaged: one ray from each site.
