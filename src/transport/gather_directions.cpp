@@ -59,7 +59,7 @@ constexpr double kGolden = .6180339887498949;
 }  // namespace
 
 // In the finer lattice, kInterleavedGathers steps forward are one step of each set. Of the generators with
-// this property, those chosen have the smallest errors with 16 to 310 directions.
+// this property, those chosen have small errors with 16 to 310 directions (2026-11-30-lattices.txt).
 DirectionSet DirectionSet::interleaved(int count, int number, Random& common) {
   constexpr int kSets = kInterleavedGathers;
   DirectionSet set(count, common);

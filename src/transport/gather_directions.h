@@ -3,8 +3,6 @@
 // finders of light have found (aims.h). Each is weighted by the density of the whole mixture in its direction
 // (multiple importance sampling with the balance heuristic).
 
-#include <array>
-
 #include "base/function_ref.h"
 #include "base/random.h"
 #include "openings/light_finder.h"
